@@ -1,0 +1,377 @@
+//! The extended Kalman filter: propagation and update of 18 states with consider states and dual accelerometer use.
+//!
+//! Pure functions of state and covariance; which samples arrive and what a law makes of them is [`crate::Navigator`]'s.
+
+use crate::gravity::Gravity;
+use crate::state::{LidarRows, N, State, StateMatrix, TargetMatrix, idx};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use numerics::{expm, rk4, spd};
+use serde::{Deserialize, Serialize};
+
+/// Mean and covariance, internal units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gaussian {
+    /// The 18 states.
+    pub x: State,
+    /// Their covariance, 18x18.
+    pub p: StateMatrix,
+}
+
+/// The force model of the filter, internal units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Dynamics {
+    /// Gravity of both vehicles.
+    pub gravity: Gravity,
+    /// Inverse time constant of the accelerometer bias.
+    pub beta: f64,
+    /// White acceleration density of the chaser.
+    pub q_c: f64,
+    /// Whether that noise also enters v_tc.
+    pub q_coupled: bool,
+    /// Variance rate of the bias walk.
+    pub q_bias: f64,
+}
+
+/// An accelerometer reading that drives the propagation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Thrust {
+    /// Reading, chaser body axes.
+    pub alpha_c_bc: Vector3<f64>,
+    /// Chaser body axes to axes N.
+    pub dcm_n_bc: Matrix3<f64>,
+}
+
+fn part(x: &State, slot: std::ops::Range<usize>) -> Vector3<f64> {
+    x.fixed_rows::<3>(slot.start).into_owned()
+}
+
+impl Dynamics {
+    /// Mean after `dt`: both vehicles by one Runge-Kutta step of Eq. (4), with g of the chaser in its row 5 and no
+    /// "v_c dt" term in the mean.
+    pub fn propagate_mean(&self, x: &State, dt: f64, thrust: Option<&Thrust>) -> State {
+        let a_t = part(x, idx::A_T);
+        let mut inertial = *x;
+        let (r_c, v_c) = (part(x, idx::R_C), part(x, idx::V_C));
+        inertial.fixed_rows_mut::<3>(0).copy_from(&(part(x, idx::R_TC) + r_c));
+        inertial.fixed_rows_mut::<3>(3).copy_from(&(part(x, idx::V_TC) + v_c));
+        let end = rk4::step(0.0, &inertial, dt, |_, y| {
+            let (r_t, v_t, r_c, v_c, b) =
+                (part(y, 0..3), part(y, 3..6), part(y, idx::R_C), part(y, idx::V_C), part(y, idx::B_C));
+            let drive = thrust.map_or_else(Vector3::zeros, |t| t.dcm_n_bc * (t.alpha_c_bc - b));
+            let mut dy = State::zeros();
+            dy.fixed_rows_mut::<3>(0).copy_from(&v_t);
+            dy.fixed_rows_mut::<3>(3).copy_from(&(self.gravity.acceleration(&r_t, &v_t) + a_t));
+            dy.fixed_rows_mut::<3>(9).copy_from(&v_c);
+            dy.fixed_rows_mut::<3>(12).copy_from(&(self.gravity.acceleration(&r_c, &v_c) + drive));
+            dy.fixed_rows_mut::<3>(15).copy_from(&(b * -self.beta));
+            dy
+        });
+        let mut out = end;
+        out.fixed_rows_mut::<3>(0).copy_from(&(part(&end, 0..3) - part(&end, idx::R_C)));
+        out.fixed_rows_mut::<3>(3).copy_from(&(part(&end, 3..6) - part(&end, idx::V_C)));
+        out
+    }
+
+    /// Transition matrix exp(A dt) with A of Eq. (5) at `x`, 18x18.
+    ///
+    /// Each vehicle's 9x9 block is exponentiated by itself and the two are then combined: with r_t = r_tc + r_c the
+    /// relative states inherit the difference of the blocks, which is what A_t/c of Eq. (5) expresses.
+    pub fn transition(&self, x: &State, dt: f64, thrust: Option<&Thrust>) -> StateMatrix {
+        let (r_c, v_c) = (part(x, idx::R_C), part(x, idx::V_C));
+        let (r_t, v_t) = (part(x, idx::R_TC) + r_c, part(x, idx::V_TC) + v_c);
+        let vehicle = |r: &Vector3<f64>, v: &Vector3<f64>, third_on_v: Matrix3<f64>, third_decay: f64| {
+            let (by_r, by_v) = self.gravity.partials(r, v);
+            let mut a = TargetMatrix::zeros();
+            a.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
+            a.fixed_view_mut::<3, 3>(3, 0).copy_from(&by_r);
+            a.fixed_view_mut::<3, 3>(3, 3).copy_from(&by_v);
+            a.fixed_view_mut::<3, 3>(3, 6).copy_from(&third_on_v);
+            a.fixed_view_mut::<3, 3>(6, 6).fill_diagonal(-third_decay);
+            expm(&(a * dt))
+        };
+        let target = vehicle(&r_t, &v_t, Matrix3::identity(), 0.0);
+        let drive = thrust.map_or_else(Matrix3::zeros, |t| -t.dcm_n_bc);
+        let chaser = vehicle(&r_c, &v_c, drive, self.beta);
+        let mut f = StateMatrix::zeros();
+        f.fixed_view_mut::<9, 9>(0, 0).copy_from(&target);
+        f.fixed_view_mut::<9, 9>(9, 9).copy_from(&chaser);
+        f.fixed_view_mut::<9, 6>(0, 9).copy_from(&target.fixed_view::<9, 6>(0, 0));
+        let mut relative = f.fixed_view_mut::<6, 9>(0, 9);
+        relative -= chaser.fixed_view::<6, 9>(0, 0);
+        f
+    }
+
+    /// Process noise over `dt`, 18x18: the law's for the target, white acceleration for the chaser (entering r_tc and
+    /// v_tc with opposite sign when coupled), a random walk for the bias.
+    pub fn process_noise(&self, q_target: &TargetMatrix, dt: f64) -> StateMatrix {
+        let mut q = StateMatrix::zeros();
+        q.fixed_view_mut::<9, 9>(0, 0).copy_from(q_target);
+        let white = [[dt.powi(3) / 3.0, dt.powi(2) / 2.0], [dt.powi(2) / 2.0, dt]];
+        for (i, row) in white.iter().enumerate() {
+            for (j, w) in row.iter().enumerate() {
+                let w = w * self.q_c;
+                for axis in 0..3 {
+                    let (ti, tj) = (3 * i + axis, 3 * j + axis);
+                    let (ci, cj) = (9 + ti, 9 + tj);
+                    q[(ci, cj)] += w;
+                    if self.q_coupled {
+                        q[(ti, tj)] += w;
+                        q[(ti, cj)] -= w;
+                        q[(cj, ti)] -= w;
+                    }
+                }
+            }
+        }
+        for axis in idx::B_C {
+            q[(axis, axis)] += self.q_bias * dt;
+        }
+        q
+    }
+
+    /// Time update, Eq. (3): mean by Runge-Kutta, covariance F P F^T + Q.
+    ///
+    /// * returns: the transition matrix used, 18x18.
+    pub fn predict(&self, est: &mut Gaussian, dt: f64, thrust: Option<&Thrust>, q_target: &TargetMatrix) -> StateMatrix {
+        let f = self.transition(&est.x, dt, thrust);
+        est.x = self.propagate_mean(&est.x, dt, thrust);
+        est.p = spd::symmetrised(&(f * est.p * f.transpose())) + self.process_noise(q_target, dt);
+        f
+    }
+}
+
+/// Measurement rows: H, the innovation and the noise variances of M measurements.
+#[derive(Clone, Debug)]
+pub struct Measurement<const M: usize> {
+    /// Partials, M x 18.
+    pub h: SMatrix<f64, M, N>,
+    /// Measured minus predicted, M.
+    pub innovation: SVector<f64, M>,
+    /// Diagonal of R, M.
+    pub r: SVector<f64, M>,
+}
+
+/// The update failed: S has no Cholesky factor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NotSpd {
+    /// Smallest diagonal entry of S.
+    pub min_diagonal: f64,
+}
+
+/// Measurement update, Eqs. (6) and (12): gain with the rows of the consider states zeroed, covariance in Joseph form,
+/// which stays valid for that gain.
+///
+/// * returns: the innovation covariance S, M x M.
+///
+/// # Errors
+/// [`NotSpd`] when S cannot be factored; `est` is then unchanged.
+pub fn update<const M: usize>(est: &mut Gaussian, m: &Measurement<M>) -> Result<SMatrix<f64, M, M>, NotSpd> {
+    let hp = m.h * est.p;
+    let s = spd::symmetrised(&(hp * m.h.transpose())) + SMatrix::<f64, M, M>::from_diagonal(&m.r);
+    let l = spd::cholesky(&s).ok_or(NotSpd { min_diagonal: s.diagonal().min() })?;
+    let mut k = SMatrix::<f64, N, M>::zeros();
+    for row in (0..N).filter(|row| !idx::CONSIDER.contains(row)) {
+        k.set_row(row, &spd::cholesky_solve(&l, &hp.column(row).into_owned()).transpose());
+    }
+    est.x += k * m.innovation;
+    // (I - K H) P (I - K H)^T + K R K^T with the products in the order that never forms a full 18^3 one.
+    let left = est.p - k * hp;
+    let joseph = left - (left * m.h.transpose()) * k.transpose();
+    let noise = k * SMatrix::<f64, M, M>::from_diagonal(&m.r) * k.transpose();
+    est.p = spd::symmetrised(&(joseph + noise));
+    Ok(s)
+}
+
+/// LiDAR rows at the predicted state, Eqs. (7) to (11).
+///
+/// * `r_tc_n`: predicted relative position, axes N.
+/// * `dcm_l_n`: axes N to LiDAR.
+/// * returns: predicted (range, azimuth, elevation) and their partials by the target's nine states, 3x9.
+pub fn lidar_rows(r_tc_n: &Vector3<f64>, dcm_l_n: &Matrix3<f64>) -> (Vector3<f64>, LidarRows) {
+    let predicted = sensors::lidar::measure(&(dcm_l_n * r_tc_n));
+    let mut h = LidarRows::zeros();
+    h.fixed_view_mut::<3, 3>(0, 0).copy_from(&sensors::lidar::jacobian(r_tc_n, dcm_l_n));
+    (predicted, h)
+}
+
+/// Initial standard deviations of one vehicle, internal units.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct InitialSigma {
+    /// Of its position.
+    pub position: f64,
+    /// Of its velocity.
+    pub velocity: f64,
+    /// Of the target's unmodelled acceleration.
+    pub acceleration: f64,
+    /// Of the chaser's accelerometer bias.
+    pub bias: f64,
+}
+
+impl InitialSigma {
+    /// Initial covariance, 18x18, Eqs. (35) and (37).
+    ///
+    /// Both vehicles' errors are independent and equally large, so r_tc carries twice the variance and is correlated
+    /// with r_c; likewise v_tc. The third block is a_t for the target and b_c for the chaser.
+    pub fn covariance(&self) -> StateMatrix {
+        let mut p = StateMatrix::zeros();
+        for axis in 0..3 {
+            for (slot, sigma) in [(0, self.position), (3, self.velocity)] {
+                let (t, c, v) = (slot + axis, 9 + slot + axis, sigma * sigma);
+                p[(t, t)] = 2.0 * v;
+                p[(c, c)] = v;
+                p[(t, c)] = -v;
+                p[(c, t)] = -v;
+            }
+            p[(6 + axis, 6 + axis)] = self.acceleration * self.acceleration;
+            p[(15 + axis, 15 + axis)] = self.bias * self.bias;
+        }
+        p
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use numerics::{Generator, Source, stream};
+    use rand_distr::{Distribution, StandardNormal};
+
+    fn normal(g: &mut Generator) -> f64 {
+        StandardNormal.sample(g)
+    }
+
+    fn leo() -> (Dynamics, State) {
+        let dynamics = Dynamics {
+            gravity: Gravity::Zonal(astro::earth::FILTER),
+            beta: 1.0 / 3600.0,
+            q_c: 1e-12,
+            q_coupled: true,
+            q_bias: 1e-15,
+        };
+        let mut x = State::zeros();
+        let set = |x: &mut State, slot: usize, v: [f64; 3]| x.fixed_rows_mut::<3>(slot).copy_from_slice(&v);
+        set(&mut x, 0, [-1200.0, 800.0, 300.0]);
+        set(&mut x, 3, [0.4, -0.7, 0.1]);
+        set(&mut x, 6, [2e-5, -1e-5, 3e-5]);
+        set(&mut x, 9, [5.0e6, 4.2e6, 2.0e6]);
+        set(&mut x, 12, [-4.9e3, 5.2e3, 1.6e3]);
+        set(&mut x, 15, [3e-6, -2e-6, 1e-6]);
+        (dynamics, x)
+    }
+
+    fn thrust() -> Thrust {
+        let dcm = nalgebra::Rotation3::from_euler_angles(0.3, -1.1, 2.0).into_inner();
+        Thrust { alpha_c_bc: Vector3::new(3e-3, -1e-2, 2e-3), dcm_n_bc: dcm }
+    }
+
+    fn random_spd(g: &mut Generator) -> StateMatrix {
+        let a = StateMatrix::from_fn(|_, _| normal(g));
+        a * a.transpose() + StateMatrix::identity()
+    }
+
+    #[test]
+    fn transition_agrees_with_differences_of_the_flow() {
+        let (dynamics, x) = leo();
+        for drive in [None, Some(thrust())] {
+            let f = dynamics.transition(&x, 1.0, drive.as_ref());
+            for j in 0..N {
+                // Positions carry a rounding of 1e-9 m, so steps are large; the flow is linear over them to far below the bound.
+                let step = [100.0, 10.0, 10.0][(j / 3) % 3];
+                let (mut up, mut down) = (x, x);
+                up[j] += step;
+                down[j] -= step;
+                let flow = |x: &State| dynamics.propagate_mean(x, 1.0, drive.as_ref());
+                let column = (flow(&up) - flow(&down)) / (2.0 * step);
+                // exp(A dt) holds the gravity gradient over the step, which turns by 1e-3 rad meanwhile: 1e-9 1/s2.
+                assert!((f.column(j) - column).amax() < 1e-8, "column {j}, driven {}", drive.is_some());
+            }
+        }
+    }
+
+    #[test]
+    fn propagation_conserves_energy_of_both_vehicles() {
+        let (dynamics, mut x) = leo();
+        x.fixed_rows_mut::<3>(idx::A_T.start).fill(0.0);
+        let energies = |x: &State| {
+            let (r_c, v_c) = (part(x, idx::R_C), part(x, idx::V_C));
+            let (r_t, v_t) = (part(x, idx::R_TC) + r_c, part(x, idx::V_TC) + v_c);
+            let of = |r: &Vector3<f64>, v: &Vector3<f64>| 0.5 * v.norm_squared() - astro::earth::FILTER.potential(r);
+            [of(&r_t, &v_t), of(&r_c, &v_c)]
+        };
+        let before = energies(&x);
+        for _ in 0..5680 {
+            x = dynamics.propagate_mean(&x, 1.0, None);
+        }
+        for (a, b) in before.iter().zip(energies(&x)) {
+            assert!(((a - b) / a).abs() < 1e-12, "{a} {b}");
+        }
+    }
+
+    /// Schmidt's filter by the general formulas, the inverse formed, on a covariance with every cross term.
+    #[test]
+    fn consider_update_agrees_with_the_general_formulas() {
+        let g = &mut stream(1, 0, Source::Lidar);
+        let mut est = Gaussian { x: State::from_fn(|_, _| normal(g)), p: random_spd(g) };
+        let before = est.clone();
+        let m = Measurement {
+            h: SMatrix::<f64, 6, N>::from_fn(|_, _| normal(g)),
+            innovation: SVector::<f64, 6>::from_fn(|_, _| normal(g)),
+            r: SVector::<f64, 6>::from_fn(|i, _| 0.5 + i as f64),
+        };
+        let s = update(&mut est, &m).unwrap();
+        let r = SMatrix::<f64, 6, 6>::from_diagonal(&m.r);
+        let expected_s = m.h * before.p * m.h.transpose() + r;
+        assert!((s - expected_s).amax() < 1e-10);
+        let mut k = before.p * m.h.transpose() * expected_s.try_inverse().unwrap();
+        k.fixed_rows_mut::<6>(idx::CONSIDER.start).fill(0.0);
+        let i_kh = StateMatrix::identity() - k * m.h;
+        let p = i_kh * before.p * i_kh.transpose() + k * r * k.transpose();
+        assert!((est.p - p).amax() < 1e-10);
+        assert!((est.x - before.x - k * m.innovation).amax() < 1e-11);
+        assert_eq!(est.x.fixed_rows::<6>(9), before.x.fixed_rows::<6>(9));
+        assert!((est.p - before.p).fixed_view::<6, 6>(9, 9).amax() < 1e-11, "consider states keep their covariance");
+        assert!(spd::cholesky(&est.p).is_some());
+    }
+
+    #[test]
+    fn a_covariance_that_is_not_positive_is_refused_and_kept() {
+        let mut est = Gaussian { x: State::zeros(), p: -StateMatrix::identity() };
+        let before = est.clone();
+        let mut h = SMatrix::<f64, 3, N>::zeros();
+        h.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
+        let m = Measurement { h, innovation: Vector3::zeros(), r: Vector3::repeat(0.5) };
+        assert_eq!(update(&mut est, &m).unwrap_err(), NotSpd { min_diagonal: -0.5 });
+        assert_eq!(est, before);
+    }
+
+    #[test]
+    fn coupled_noise_of_the_chaser_leaves_the_target_alone() {
+        let (mut dynamics, _) = leo();
+        let dt = 0.7;
+        let q = dynamics.process_noise(&TargetMatrix::zeros(), dt);
+        // r_t = r_tc + r_c and v_t likewise carry no noise when the coupling is right.
+        let mut to_target = SMatrix::<f64, 6, N>::zeros();
+        to_target.fixed_view_mut::<6, 6>(0, 0).fill_with_identity();
+        to_target.fixed_view_mut::<6, 6>(0, 9).fill_with_identity();
+        assert!((to_target * q * to_target.transpose()).amax() < 1e-25);
+        assert!((q[(12, 12)] - dynamics.q_c * dt).abs() < 1e-25 && q[(3, 3)] == q[(12, 12)]);
+        dynamics.q_coupled = false;
+        let block = dynamics.process_noise(&TargetMatrix::zeros(), dt);
+        assert_eq!(block.fixed_view::<9, 18>(0, 0).amax(), 0.0);
+        assert_eq!(block[(9, 12)], q[(9, 12)]);
+    }
+
+    #[test]
+    fn initial_covariance_is_that_of_two_independent_vehicles() {
+        let p = InitialSigma { position: 3.0, velocity: 0.2, acceleration: 1e-9, bias: 1e-8 }.covariance();
+        let mut to_vehicles = StateMatrix::identity();
+        to_vehicles.fixed_view_mut::<6, 6>(0, 9).fill_with_identity();
+        let v = to_vehicles * p * to_vehicles.transpose();
+        let expected = [9.0, 9.0, 9.0, 0.04, 0.04, 0.04, 1e-18, 1e-18, 1e-18];
+        for i in 0..N {
+            for j in 0..N {
+                let bias = [1e-16; 3];
+                let want = if i != j { 0.0 } else if i >= 15 { bias[i - 15] } else { expected[i % 9] };
+                assert!((v[(i, j)] - want).abs() < 1e-15, "{i} {j}");
+            }
+        }
+    }
+}

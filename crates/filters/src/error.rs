@@ -1,0 +1,108 @@
+//! What can go wrong in a filter.
+
+/// One variant per cause; messages name the FMI variable or the epoch concerned.
+#[derive(Debug, thiserror::Error)]
+pub enum FilterError {
+    /// A scenario number or name that is not registered.
+    #[error("scenario '{name}' is not known here; known: {known}")]
+    UnknownScenario {
+        /// As given.
+        name: String,
+        /// Registered names.
+        known: String,
+    },
+    /// A filter number or name that is not registered.
+    #[error("filter '{name}' is not known here; known: {known}")]
+    UnknownFilter {
+        /// As given.
+        name: String,
+        /// Registered names.
+        known: String,
+    },
+    /// A value outside its range.
+    #[error("{name} = {value} {unit}: must be {permitted}")]
+    OutOfRange {
+        /// FMI variable.
+        name: String,
+        /// As given.
+        value: f64,
+        /// Unit of the value.
+        unit: &'static str,
+        /// The range in words.
+        permitted: &'static str,
+    },
+    /// A tunable left at "the scenario's own" in a scenario that has no value for it.
+    #[error("{name} is -1, the scenario's own value, but scenario {scenario} has none: set it")]
+    NoScenarioDefault {
+        /// FMI variable.
+        name: String,
+        /// Scenario.
+        scenario: &'static str,
+    },
+    /// The first sample arrived and no initial estimate had been given.
+    #[error("nav_init.x is all zero when sample 1 at t = {t_s} s arrives: connect or set nav_init.x[1..18]")]
+    NoInitialEstimate {
+        /// Epoch of the sample, s.
+        t_s: f64,
+    },
+    /// A sample whose epoch does not follow the last one.
+    #[error("sample {count} has sample_time = {t_s} s, not after the last epoch {last_s} s")]
+    TimeNotAdvancing {
+        /// Ordinal of the sample.
+        count: i32,
+        /// Its epoch, s.
+        t_s: f64,
+        /// Epoch of the last sample used, or the start time, s.
+        last_s: f64,
+    },
+    /// A sample too far ahead to be bridged.
+    #[error("sample {count} at t = {t_s} s leaves a gap of {gap_s} s; at most {limit_s} s can be bridged")]
+    GapTooLong {
+        /// Ordinal of the sample.
+        count: i32,
+        /// Its epoch, s.
+        t_s: f64,
+        /// Time since the last epoch, s.
+        gap_s: f64,
+        /// Longest gap that is bridged, s.
+        limit_s: f64,
+    },
+    /// An attitude matrix that is not a rotation.
+    #[error("dcm_bc_n of the sample at t = {t_s} s is not a rotation: |D D^T - I| reaches {defect:.3e}")]
+    NotARotation {
+        /// Epoch, s.
+        t_s: f64,
+        /// Largest entry of D D^T - I.
+        defect: f64,
+    },
+    /// The predicted line of sight has no direction.
+    #[error("at t = {t_s} s the predicted target lies {range_m:.3e} m from the chaser: range and angles have no partials")]
+    LineOfSightUndefined {
+        /// Epoch, s.
+        t_s: f64,
+        /// Predicted range, m.
+        range_m: f64,
+    },
+    /// The innovation covariance has no Cholesky factor.
+    #[error("at t = {t_s} s the innovation covariance is not positive definite (smallest diagonal entry {min_diagonal:.3e})")]
+    InnovationNotSpd {
+        /// Epoch, s.
+        t_s: f64,
+        /// Smallest diagonal entry, internal units.
+        min_diagonal: f64,
+    },
+    /// The state or its covariance is no longer finite.
+    #[error("at t = {t_s} s the estimate is no longer finite")]
+    NotFinite {
+        /// Epoch, s.
+        t_s: f64,
+    },
+    /// The information matrix of an adaptation could not be inverted.
+    #[error("{law}: the information matrix of the adaptation is not positive definite at update {update}")]
+    InformationNotSpd {
+        /// The law.
+        law: &'static str,
+        /// Ordinal of the update.
+        update: i32,
+    },
+}

@@ -1,0 +1,28 @@
+//! The gravity models that filters propagate with.
+
+use astro::ZonalGravity;
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// A gravity model: acceleration of a vehicle and its partials, in internal units and axes N.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Gravity {
+    /// Two-body attraction and zonal harmonics, inertial axes.
+    Zonal(ZonalGravity),
+}
+
+impl Gravity {
+    /// Acceleration at position `r` and velocity `v`; the velocity matters in rotating axes only.
+    pub fn acceleration(&self, r: &Vector3<f64>, _v: &Vector3<f64>) -> Vector3<f64> {
+        match self {
+            Self::Zonal(zonal) => zonal.acceleration(r),
+        }
+    }
+
+    /// Partials of the acceleration by position and by velocity, 3x3 each.
+    pub fn partials(&self, r: &Vector3<f64>, _v: &Vector3<f64>) -> (Matrix3<f64>, Matrix3<f64>) {
+        match self {
+            Self::Zonal(zonal) => (zonal.gradient(r), Matrix3::zeros()),
+        }
+    }
+}

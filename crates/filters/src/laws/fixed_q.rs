@@ -1,0 +1,49 @@
+//! No adaptation: an acceleration state driven by jerk of constant density. The yardstick for every other law.
+
+use super::{Adaptation, FilterEntry, Law, Setup, Step};
+use crate::FilterError;
+use crate::jerk;
+use crate::state::TargetMatrix;
+use crate::tunable::{Bound, Kind, Preset, Tunable};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+pub(super) const ENTRY: FilterEntry = FilterEntry {
+    name: "fixed_q",
+    about: "constant jerk density, acceleration as a state",
+    tunables: &[Tunable {
+        name: "s",
+        about: "square root of the jerk density, one number for all axes",
+        kind: Kind::Real { start: Some(1e-5), unit: "m/s^2.5", bound: Bound::Positive },
+    }],
+    presets: &[
+        Preset { name: "paper", about: "s = 1e-5 m/s^2.5", sets: &[("s", "1e-5")] },
+        Preset { name: "small", about: "s = 1e-6 m/s^2.5, about the size of the vents", sets: &[("s", "1e-6")] },
+    ],
+    build,
+};
+
+fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
+    Ok(FixedQ { s: setup.tunables.real("s")? / setup.units.root_jerk_density() }.into())
+}
+
+/// Constant jerk density.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct FixedQ {
+    /// Square root of the density, internal units.
+    s: f64,
+}
+
+impl Adaptation for FixedQ {
+    fn process_noise(&self, dt: f64) -> TargetMatrix {
+        jerk::process_noise(&Vector3::repeat(self.s * self.s), dt)
+    }
+
+    fn observe(&mut self, _step: Step) -> Result<(), FilterError> {
+        Ok(())
+    }
+
+    fn s(&self) -> Vector3<f64> {
+        Vector3::repeat(self.s)
+    }
+}

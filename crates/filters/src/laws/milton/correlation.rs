@@ -1,0 +1,558 @@
+//! From a window of samples to the regression c = D q for the jerk density (Mamich and Zanetti, Eqs. 13 to 28).
+//!
+//! Samples are counted 0..=2 m_b from the oldest. Two least-squares windows of m_b samples, one sample apart, estimate the
+//! error at their own first sample; carried to the same epoch and subtracted they leave a sequence Z without any state
+//! error, only noise:
+//!
+//! Z_w = O+_{w+1} Y_{w+1} - F_w O+_w Y_w = sum_l A_w[l] eta_l + sum_j B_w[j] nu_j
+//!
+//! with w the older window's first sample, O+ = M^-1 O^T the pseudo-inverse, eta_l the measurement noise of sample l and
+//! nu_j the process noise of the step from j to j + 1. A_w and B_w follow from that definition (Eqs. 22 and 23 print some
+//! indices and transposes wrongly); tests check both by perturbing one sample. In the paper's indices k = w + m_b, A_i of
+//! k is `a[k - i]` and B_j of k is `b[k - j]`.
+//!
+//! Only D^T D (3x3) and D^T c (3) leave this file; the 2475 x 3 matrix D of m_b = 30 is never formed. The window's
+//! pseudo-inverse comes from an orthogonal factorisation of O, since forming M = O^T O squares a condition number that is
+//! large already (three integrations, seen through angles at kilometres).
+
+use crate::jerk;
+use crate::state::{LidarRows, N_TARGET, Target, TargetMatrix};
+use nalgebra::{Matrix3, SMatrix, Vector3};
+use serde::{Deserialize, Serialize};
+use std::collections::VecDeque;
+
+/// Nine states by three measurement rows.
+pub type Gain = SMatrix<f64, N_TARGET, 3>;
+
+/// One sample of the window, in the units (and with the row scaling) the law adapts in.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Sampled {
+    /// Time since the previous sample.
+    pub dt: f64,
+    /// Transition from the previous sample to this one, 9x9.
+    pub f: TargetMatrix,
+    /// Measurement rows, 3x9; zero rows where nothing was measured.
+    pub h: LidarRows,
+    /// Innovation, 3; zero where nothing was measured.
+    pub residual: Vector3<f64>,
+    /// What the filter's update added to the nine states.
+    pub correction: Target,
+}
+
+/// The normal equations of c = D q.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Regression {
+    /// D^T D, 3x3.
+    pub dt_d: Matrix3<f64>,
+    /// D^T c, 3, where c is the measured autocorrelation less the part that measurement noise explains.
+    pub dt_c: Vector3<f64>,
+}
+
+/// Coefficients of Z_w for one w.
+#[derive(Clone, Debug)]
+pub struct Difference {
+    /// First sample of the older window.
+    pub first: usize,
+    /// The difference itself, 9.
+    pub z: Target,
+    /// A_w[l] for l = w..=w+m_b, each 9x3.
+    pub a: Vec<Gain>,
+    /// B_w[j] for j = w..w+m_b, each 9x9.
+    pub b: Vec<TargetMatrix>,
+}
+
+/// Residuals as they would have been had the filter not corrected itself since the oldest sample.
+///
+/// d_{j+1} = F_j (d_j + correction_j) from d = 0, and each residual gains H_j d_j. Z does not depend on where d starts.
+pub fn open_loop_residuals(samples: &[Sampled]) -> Vec<Vector3<f64>> {
+    let mut d = Target::zeros();
+    let mut out = Vec::with_capacity(samples.len());
+    for (j, sample) in samples.iter().enumerate() {
+        if j > 0 {
+            d = sample.f * (d + samples[j - 1].correction);
+        }
+        out.push(sample.residual + sample.h * d);
+    }
+    out
+}
+
+/// Pseudo-inverse of the stacked rows of one window.
+///
+/// * `rows`: O, one 3x9 block for each sample.
+/// * returns: M^-1 O^T as one 9x3 block for each sample, or `None` when the window does not observe all nine states.
+fn pseudo_inverse(mut rows: Vec<LidarRows>) -> Option<Vec<Gain>> {
+    let mut r = TargetMatrix::zeros();
+    // Gram-Schmidt, each column orthogonalised twice: as accurate as Householder and as short as the definition.
+    for j in 0..N_TARGET {
+        let length = rows.iter().map(|q| q.column(j).norm_squared()).sum::<f64>().sqrt();
+        for _ in 0..2 {
+            for i in 0..j {
+                let dot = rows.iter().map(|q| q.column(i).dot(&q.column(j))).sum::<f64>();
+                r[(i, j)] += dot;
+                for q in rows.iter_mut() {
+                    for row in 0..3 {
+                        q[(row, j)] -= dot * q[(row, i)];
+                    }
+                }
+            }
+        }
+        let rest = rows.iter().map(|q| q.column(j).norm_squared()).sum::<f64>().sqrt();
+        // Below this nothing but rounding is left of the column. The comparison is false for NaN as well.
+        if !(rest > 1e-13 * length) {
+            return None;
+        }
+        r[(j, j)] = rest;
+        for q in rows.iter_mut() {
+            for row in 0..3 {
+                q[(row, j)] /= rest;
+            }
+        }
+    }
+    // R x = Q^T, one sample's block at a time.
+    let solve = |q: &LidarRows| {
+        let mut x = q.transpose();
+        for i in (0..N_TARGET).rev() {
+            for k in i + 1..N_TARGET {
+                for row in 0..3 {
+                    x[(i, row)] -= r[(i, k)] * x[(k, row)];
+                }
+            }
+            for row in 0..3 {
+                x[(i, row)] /= r[(i, i)];
+            }
+        }
+        x
+    };
+    Some(rows.iter().map(solve).collect())
+}
+
+/// Every difference Z_w, w = 0..=m_b; their `a` and `z` are whole, their `b` starts at step `b_from`.
+///
+/// * `samples`: 2 m_b + 1, oldest first.
+/// * `residuals`: one for each.
+/// * `b_from`: coefficients of process noise before this step are not needed and left out of `b`.
+/// * returns: the differences, or `None` when a window is singular.
+fn differences(
+    samples: &[Sampled],
+    residuals: &[Vector3<f64>],
+    m_b: usize,
+    b_from: usize,
+) -> Option<Vec<Difference>> {
+    // Least-squares windows start at 0..=m_b+1. Going backwards, each inherits the rows H_l Phi_{l,start} of the one after
+    // it times one transition.
+    let mut gains = vec![Vec::new(); m_b + 2];
+    let mut rows = VecDeque::with_capacity(m_b + 1);
+    for start in (0..samples.len()).rev() {
+        if start + 1 < samples.len() {
+            rows.iter_mut().for_each(|row: &mut LidarRows| *row *= samples[start + 1].f);
+        }
+        rows.push_front(samples[start].h);
+        rows.truncate(m_b);
+        if start <= m_b + 1 {
+            gains[start] = pseudo_inverse(rows.iter().copied().collect())?;
+        }
+    }
+    let mut out = Vec::with_capacity(m_b + 1);
+    for w in 0..=m_b {
+        let f = &samples[w + 1].f;
+        let newer = &gains[w + 1];
+        let older: Vec<Gain> = gains[w].iter().map(|g| f * g).collect();
+        let mut a = vec![Gain::zeros(); m_b + 1];
+        for (i, gain) in newer.iter().enumerate() {
+            a[i + 1] += gain;
+        }
+        for (i, gain) in older.iter().enumerate() {
+            a[i] -= gain;
+        }
+        let z = a.iter().zip(&residuals[w..]).fold(Target::zeros(), |z, (a, y)| z + a * y);
+        // What a window makes of an error e at sample j that enters there: sum over l >= j of its gain times
+        // H_l Phi_{l,j}. The difference of both windows' answers to nu_j at sample j + 1 is B_w[j]; A holds that
+        // difference of gains, but for the older window's first sample, which precedes every nu_j.
+        let first_step = b_from.max(w);
+        let mut b = vec![TargetMatrix::zeros(); w + m_b - first_step];
+        let mut seen = TargetMatrix::zeros();
+        for j in (first_step..w + m_b).rev() {
+            if j + 2 <= w + m_b {
+                seen *= samples[j + 2].f;
+            }
+            seen += a[j + 1 - w] * samples[j + 1].h;
+            b[j - first_step] = seen;
+        }
+        out.push(Difference { first: w, z, a, b });
+    }
+    Some(out)
+}
+
+/// Every difference Z_w of a window with all its coefficients, for tests and for the curious.
+///
+/// * `samples`: 2 m_b + 1, oldest first.
+/// * returns: `None` when there are too few samples or a window is singular.
+pub fn all_differences(samples: &[Sampled], m_b: usize, open_loop: bool) -> Option<Vec<Difference>> {
+    if samples.len() != 2 * m_b + 1 || m_b == 0 {
+        return None;
+    }
+    differences(samples, &residuals_of(samples, open_loop), m_b, 0)
+}
+
+fn residuals_of(samples: &[Sampled], open_loop: bool) -> Vec<Vector3<f64>> {
+    if open_loop { open_loop_residuals(samples) } else { samples.iter().map(|s| s.residual).collect() }
+}
+
+/// The normal equations of Eq. (28) before the square root: c = D q with one column of D for each axis of q.
+///
+/// * `samples`: 2 m_b + 1, oldest first.
+/// * `r`: measurement noise covariance in the units (and row scaling) of the samples, 3x3.
+/// * `open_loop`: whether to undo the filter's corrections first.
+/// * returns: `None` when there are too few samples or a window does not observe all nine states.
+pub fn regression(samples: &[Sampled], m_b: usize, r: &Matrix3<f64>, open_loop: bool) -> Option<Regression> {
+    if samples.len() != 2 * m_b + 1 || m_b == 0 {
+        return None;
+    }
+    // Z_k is correlated with its predecessors through samples m_b..=2 m_b only.
+    let all = differences(samples, &residuals_of(samples, open_loop), m_b, m_b)?;
+    // Each Q_hat column is rank three: B times (factor of Gamma x e_axis), 9x3 for each axis, side by side in 9x9.
+    let driven: Vec<Vec<TargetMatrix>> = all
+        .iter()
+        .map(|d| {
+            let first_step = m_b.max(d.first);
+            let steps = d.b.iter().enumerate();
+            steps.map(|(i, b)| through_jerk(b, &jerk::gamma_factor(samples[first_step + i + 1].dt))).collect()
+        })
+        .collect();
+    let newest = &all[m_b];
+    let newest_driven = &driven[m_b];
+    let mut out = Regression { dt_d: Matrix3::zeros(), dt_c: Vector3::zeros() };
+    for p in 0..=m_b {
+        let earlier = &all[m_b - p];
+        let mut noise = TargetMatrix::zeros();
+        for l in m_b..=2 * m_b - p {
+            noise += newest.a[l - m_b] * r * earlier.a[l - earlier.first].transpose();
+        }
+        let c = newest.z * earlier.z.transpose() - noise;
+        let mut columns = [TargetMatrix::zeros(); 3];
+        for (now, then) in newest_driven.iter().zip(&driven[m_b - p]) {
+            for (axis, column) in columns.iter_mut().enumerate() {
+                let (now, then) = (now.fixed_columns::<3>(3 * axis), then.fixed_columns::<3>(3 * axis));
+                *column += now * then.transpose();
+            }
+        }
+        for i in 0..3 {
+            out.dt_c[i] += inner(&columns[i], &c, p == 0);
+            for j in 0..=i {
+                let d = inner(&columns[i], &columns[j], p == 0);
+                out.dt_d[(i, j)] += d;
+                if i != j {
+                    out.dt_d[(j, i)] += d;
+                }
+            }
+        }
+    }
+    Some(out)
+}
+
+/// B (Gamma^1/2 x I), its columns sorted by axis.
+fn through_jerk(b: &TargetMatrix, factor: &Matrix3<f64>) -> TargetMatrix {
+    let mut out = TargetMatrix::zeros();
+    for axis in 0..3 {
+        for m in 0..3 {
+            for n in m..3 {
+                let weight = factor[(n, m)];
+                for row in 0..N_TARGET {
+                    out[(row, 3 * axis + m)] += b[(row, 3 * n + axis)] * weight;
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Inner product of two blocks of Eq. (28): over all entries, or over one triangle where the block is stacked by vech.
+fn inner(a: &TargetMatrix, b: &TargetMatrix, vech: bool) -> f64 {
+    if vech { (0..N_TARGET).map(|j| (j..N_TARGET).map(|i| a[(i, j)] * b[(i, j)]).sum::<f64>()).sum() } else { a.dot(b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{DMatrix, DVector};
+    use numerics::{Generator, Source, expm, stream};
+    use rand_distr::{Distribution, StandardNormal};
+
+    const M_B: usize = 5;
+
+    fn normal(g: &mut Generator) -> f64 {
+        StandardNormal.sample(g)
+    }
+
+    /// A window of a time-varying system that resembles the real one: three integrators with a gravity gradient, seen
+    /// through rows that turn. Steps are of unequal length.
+    fn window(g: &mut Generator) -> Vec<Sampled> {
+        (0..2 * M_B + 1)
+            .map(|k| {
+                let dt = 1.0 + 0.25 * (k % 3) as f64;
+                let mut a = TargetMatrix::zeros();
+                for i in 0..6 {
+                    a[(i, i + 3)] = 1.0;
+                }
+                for i in 0..3 {
+                    for j in 0..3 {
+                        a[(3 + i, j)] = 0.02 * normal(g);
+                    }
+                }
+                let mut h = LidarRows::zeros();
+                for i in 0..3 {
+                    for j in 0..3 {
+                        h[(i, j)] = normal(g);
+                    }
+                }
+                Sampled {
+                    dt,
+                    f: expm(&(a * dt)),
+                    h,
+                    residual: Vector3::from_fn(|_, _| normal(g)),
+                    correction: Target::from_fn(|_, _| normal(g)),
+                }
+            })
+            .collect()
+    }
+
+    /// Z as the paper defines it, Eqs. (16) to (19), by normal equations.
+    fn z_by_definition(samples: &[Sampled], w: usize) -> Target {
+        let estimate = |start: usize| {
+            let (mut m, mut oy, mut phi) = (TargetMatrix::zeros(), Target::zeros(), TargetMatrix::identity());
+            for l in start..start + M_B {
+                if l > start {
+                    phi = samples[l].f * phi;
+                }
+                let o = samples[l].h * phi;
+                m += o.transpose() * o;
+                oy += o.transpose() * samples[l].residual;
+            }
+            m.try_inverse().unwrap() * oy
+        };
+        estimate(w + 1) - samples[w + 1].f * estimate(w)
+    }
+
+    #[test]
+    fn z_follows_its_definition() {
+        let samples = window(&mut stream(1, 0, Source::Lidar));
+        for d in all_differences(&samples, M_B, false).unwrap() {
+            let expected = z_by_definition(&samples, d.first);
+            assert!((d.z - expected).amax() < 1e-8 * expected.amax().max(1.0), "w = {}", d.first);
+        }
+    }
+
+    #[test]
+    fn z_annihilates_any_state_error() {
+        let g = &mut stream(2, 0, Source::Lidar);
+        let mut samples = window(g);
+        let mut e = Target::from_fn(|_, _| 100.0 * normal(g));
+        for k in 0..samples.len() {
+            if k > 0 {
+                e = samples[k].f * e;
+            }
+            samples[k].residual = samples[k].h * e;
+        }
+        for d in all_differences(&samples, M_B, false).unwrap() {
+            assert!(d.z.amax() < 1e-8, "w = {}: {}", d.first, d.z.amax());
+        }
+    }
+
+    #[test]
+    fn a_is_the_answer_to_one_perturbed_measurement() {
+        let samples = window(&mut stream(3, 0, Source::Lidar));
+        let all = all_differences(&samples, M_B, false).unwrap();
+        for d in &all {
+            for l in 0..samples.len() {
+                for row in 0..3 {
+                    let mut perturbed = samples.clone();
+                    perturbed[l].residual[row] += 1.0;
+                    let answer = z_by_definition(&perturbed, d.first) - z_by_definition(&samples, d.first);
+                    let known = l.checked_sub(d.first).and_then(|i| d.a.get(i));
+                    let expected = known.map_or_else(Target::zeros, |a| a.column(row).into_owned());
+                    assert!((answer - expected).amax() < 1e-8, "w = {}, sample {l}, row {row}", d.first);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn b_is_the_answer_to_one_perturbed_step() {
+        let samples = window(&mut stream(4, 0, Source::Lidar));
+        for d in all_differences(&samples, M_B, false).unwrap() {
+            for j in 0..2 * M_B {
+                for state in 0..N_TARGET {
+                    let mut perturbed = samples.clone();
+                    let mut e = Target::zeros();
+                    e[state] = 1.0;
+                    for k in j + 1..samples.len() {
+                        if k > j + 1 {
+                            e = samples[k].f * e;
+                        }
+                        perturbed[k].residual += samples[k].h * e;
+                    }
+                    let answer = z_by_definition(&perturbed, d.first) - z_by_definition(&samples, d.first);
+                    let known = j.checked_sub(d.first).and_then(|i| d.b.get(i));
+                    let expected = known.map_or_else(Target::zeros, |b| b.column(state).into_owned());
+                    assert!((answer - expected).amax() < 1e-7, "w = {}, step {j}, state {state}", d.first);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn open_loop_residuals_undo_the_corrections() {
+        // Errors that evolve freely against the same errors seen by a filter that corrects itself by arbitrary amounts.
+        let g = &mut stream(5, 0, Source::Lidar);
+        let mut samples = window(g);
+        let (mut free, mut filtered) = (Target::from_fn(|_, _| normal(g)), Target::zeros());
+        let start = free;
+        let mut expected = Vec::new();
+        for k in 0..samples.len() {
+            if k > 0 {
+                free = samples[k].f * free;
+                filtered = samples[k].f * (filtered - samples[k - 1].correction);
+            } else {
+                filtered = start;
+            }
+            samples[k].residual = samples[k].h * filtered;
+            expected.push(samples[k].h * free);
+        }
+        for (ours, expected) in open_loop_residuals(&samples).iter().zip(&expected) {
+            assert!((ours - expected).amax() < 1e-8);
+        }
+    }
+
+    fn vec(m: &DMatrix<f64>) -> DVector<f64> {
+        DVector::from_column_slice(m.as_slice())
+    }
+
+    /// The regression with the big matrix formed block by block from Kronecker products, as Eqs. (24) to (28) print it
+    /// (vec column-stacked, which the Kronecker identity needs; vech takes one triangle of the first block).
+    #[test]
+    fn normal_equations_agree_with_the_matrix_that_is_never_formed() {
+        let samples = window(&mut stream(6, 0, Source::Lidar));
+        let r = Matrix3::new(0.5, 0.1, 0.0, 0.1, 0.8, -0.2, 0.0, -0.2, 0.3);
+        let all = all_differences(&samples, M_B, false).unwrap();
+        let newest = &all[M_B];
+        let dynamic = |m: &TargetMatrix| DMatrix::from_column_slice(9, 9, m.as_slice());
+        let gain = |m: &Gain| DMatrix::from_column_slice(9, 3, m.as_slice());
+        let (mut d_rows, mut c_rows) = (Vec::new(), Vec::new());
+        for p in 0..=M_B {
+            let earlier = &all[M_B - p];
+            let mut block = DMatrix::zeros(81, 3);
+            for j in M_B..2 * M_B - p {
+                let b = dynamic(&newest.b[j - M_B]);
+                let b_earlier = dynamic(&earlier.b[j - earlier.first]);
+                let kron = b_earlier.kronecker(&b);
+                for axis in 0..3 {
+                    let mut q = Vector3::zeros();
+                    q[axis] = 1.0;
+                    let q_hat = dynamic(&jerk::process_noise(&q, samples[j + 1].dt));
+                    let mut column = block.column_mut(axis);
+                    column += &kron * vec(&q_hat);
+                }
+            }
+            let z = DMatrix::from_column_slice(9, 1, newest.z.as_slice())
+                * DMatrix::from_column_slice(9, 1, earlier.z.as_slice()).transpose();
+            let mut c = vec(&z);
+            for l in M_B..=2 * M_B - p {
+                let kron = gain(&earlier.a[l - earlier.first]).kronecker(&gain(&newest.a[l - M_B]));
+                c -= kron * DVector::from_column_slice(r.as_slice());
+            }
+            for entry in 0..81 {
+                if p > 0 || entry % 9 >= entry / 9 {
+                    d_rows.push(block.row(entry).into_owned());
+                    c_rows.push(c[entry]);
+                }
+            }
+        }
+        // The paper's count of rows: m_b n^2 + n (n + 1) / 2.
+        assert_eq!(d_rows.len(), M_B * 81 + 45);
+        let (d, c) = (DMatrix::from_rows(&d_rows), DVector::from_vec(c_rows));
+        let (dt_d, dt_c) = (d.transpose() * &d, d.transpose() * c);
+        let ours = regression(&samples, M_B, &r, false).unwrap();
+        for i in 0..3 {
+            assert!((ours.dt_c[i] - dt_c[i]).abs() < 1e-9 * dt_c.amax());
+            for j in 0..3 {
+                assert!((ours.dt_d[(i, j)] - dt_d[(i, j)]).abs() < 1e-9 * dt_d.amax());
+            }
+        }
+    }
+
+    #[test]
+    fn missing_rows_are_left_out_and_blind_windows_refused() {
+        let g = &mut stream(7, 0, Source::Lidar);
+        let mut samples = window(g);
+        let blind = |s: &mut Sampled| {
+            s.h = LidarRows::zeros();
+            s.residual = Vector3::zeros();
+        };
+        blind(&mut samples[M_B + 1]);
+        let r = Matrix3::identity();
+        let all = all_differences(&samples, M_B, false).unwrap();
+        assert!(all.iter().all(|d| d.a.get(M_B + 1 - d.first).is_none_or(|a| a.amax() < 1e-12)));
+        assert!(regression(&samples, M_B, &r, false).is_some());
+        samples.iter_mut().skip(3).take(3).for_each(blind);
+        assert_eq!(regression(&samples, M_B, &r, false), None);
+        assert_eq!(regression(&samples[1..], M_B, &r, false), None);
+    }
+
+    /// A Kalman filter with a wrong Q watches three integrators driven by a known jerk density. The regression on
+    /// open-loop residuals must find that density without bias; on the filter's own innovations it need not.
+    ///
+    /// * returns: ratio of estimated to true density per axis, and its standard error from independent batches.
+    fn recovered_density(open_loop: bool) -> (Vector3<f64>, Vector3<f64>) {
+        let (m_b, dt, q_true, sigma) = (8, 1.0, Vector3::new(0.4, 1.0, 2.5), 0.3);
+        let mut a = TargetMatrix::zeros();
+        for i in 0..6 {
+            a[(i, i + 3)] = 1.0;
+        }
+        let f = expm(&(a * dt));
+        let mut h = LidarRows::zeros();
+        h.fixed_view_mut::<3, 3>(0, 0).copy_from(&Matrix3::new(1.0, 0.2, 0.0, -0.1, 0.8, 0.3, 0.0, 0.1, 1.2));
+        let r = Matrix3::identity() * (sigma * sigma);
+        let q_filter = jerk::process_noise(&(q_true * 9.0), dt);
+        let draw = numerics::spd::cholesky(&jerk::process_noise(&q_true, dt)).unwrap();
+        let batches: Vec<Vector3<f64>> = (0..30)
+            .map(|batch| {
+                let g = &mut stream(8, batch, Source::Lidar);
+                let (mut e, mut p) = (Target::zeros(), TargetMatrix::identity());
+                let mut samples = Vec::new();
+                let (mut dt_d, mut dt_c) = (Matrix3::zeros(), Vector3::zeros());
+                for _ in 0..4000 {
+                    e = f * e + draw * Target::from_fn(|_, _| normal(g));
+                    p = f * p * f.transpose() + q_filter;
+                    let residual = h * e + Vector3::from_fn(|_, _| sigma * normal(g));
+                    let gain = p * h.transpose() * (h * p * h.transpose() + r).try_inverse().unwrap();
+                    let correction = gain * residual;
+                    e -= correction;
+                    p -= gain * h * p;
+                    samples.push(Sampled { dt, f, h, residual, correction });
+                    if samples.len() == 2 * m_b + 1 {
+                        let found = regression(&samples, m_b, &r, open_loop).unwrap();
+                        dt_d += found.dt_d;
+                        dt_c += found.dt_c;
+                        samples.drain(..m_b + 1);
+                    }
+                }
+                (dt_d.try_inverse().unwrap() * dt_c).component_div(&q_true)
+            })
+            .collect();
+        let n = batches.len() as f64;
+        let mean = batches.iter().sum::<Vector3<f64>>() / n;
+        let variance = batches.iter().map(|b| (b - mean).map(|v| v * v)).sum::<Vector3<f64>>() / (n - 1.0);
+        (mean, (variance / n).map(f64::sqrt))
+    }
+
+    #[test]
+    fn open_loop_residuals_recover_the_density_and_innovations_do_not() {
+        let (ratio, error) = recovered_density(true);
+        for axis in 0..3 {
+            assert!((ratio[axis] - 1.0).abs() < 3.5 * error[axis], "axis {axis}: {} +- {}", ratio[axis], error[axis]);
+            assert!(error[axis] < 0.1, "axis {axis}: too few samples to tell, {}", error[axis]);
+        }
+        let (ratio, error) = recovered_density(false);
+        assert!((0..3).all(|i| (ratio[i] - 1.0).abs() > 5.0 * error[i]), "innovations: {ratio} +- {error}");
+    }
+}

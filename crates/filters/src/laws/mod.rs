@@ -1,0 +1,134 @@
+//! Adaptation laws: how a filter chooses its process noise.
+//!
+//! A law is one file that exports an `ENTRY` and implements [`Adaptation`], and one line in the registry below. That line
+//! makes it appear in the FMU's `filter` enumeration, its tunables in the model description, and itself in
+//! `trade-harness list` and in every test that loops over [`FILTERS`].
+
+mod fixed_q;
+pub mod milton;
+
+use crate::FilterError;
+use crate::state::{LidarRows, Target, TargetMatrix};
+use crate::tunable::{Preset, Tunable, Tunables};
+use crate::units::Units;
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// What a law sees of one processed sample; internal units.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Step {
+    /// Time since the previous sample.
+    pub dt: f64,
+    /// Transition of the target's nine states from the previous sample to this one, 9x9.
+    pub f: TargetMatrix,
+    /// LiDAR rows of H at the predicted state, 3x9; zero when the sample had no LiDAR measurement.
+    pub h: LidarRows,
+    /// LiDAR innovation (range, azimuth, elevation); zero without a measurement.
+    pub innovation: Vector3<f64>,
+    /// What the update, accelerometer rows included, added to the target's nine states.
+    pub correction: Target,
+}
+
+/// A law plugged into the filter.
+pub trait Adaptation {
+    /// Discrete process noise of the target's nine states over `dt`, 9x9, internal units.
+    fn process_noise(&self, dt: f64) -> TargetMatrix;
+
+    /// Learns from a processed sample.
+    ///
+    /// # Errors
+    /// When the law cannot go on; the filter stops with it.
+    fn observe(&mut self, step: Step) -> Result<(), FilterError>;
+
+    /// Square root of the jerk density per axis N now in use, internal units.
+    fn s(&self) -> Vector3<f64>;
+
+    /// How often the law has changed its mind.
+    fn updates(&self) -> i32 {
+        0
+    }
+
+    /// How often it had to pass an update by, its window being singular.
+    fn skipped(&self) -> i32 {
+        0
+    }
+}
+
+/// What a law may know when it is built.
+pub struct Setup<'a> {
+    /// Its tunables.
+    pub tunables: Tunables<'a>,
+    /// LiDAR noise covariance R, 3x3, internal units.
+    pub r: Matrix3<f64>,
+    /// Internal units.
+    pub units: Units,
+    /// Seed of the study.
+    pub study_seed: u64,
+    /// Run within the study.
+    pub run: u64,
+}
+
+/// A registered filter.
+pub struct FilterEntry {
+    /// Name, as in the FMU's `filter` enumeration, and prefix of its tunables.
+    pub name: &'static str,
+    /// One line for `list` and the enumeration's description.
+    pub about: &'static str,
+    /// Parameters it offers.
+    pub tunables: &'static [Tunable],
+    /// Named sets; the first is always `paper`.
+    pub presets: &'static [Preset],
+    /// Builds the law.
+    pub build: fn(&Setup<'_>) -> Result<Law, FilterError>,
+}
+
+/// Makes the registry: the list of entries and the closed set of laws that a saved FMU state can hold.
+macro_rules! registry {
+    ($($variant:ident => $law:ty, $entry:expr;)*) => {
+        /// Every filter, in the order reports list them.
+        pub const FILTERS: &[FilterEntry] = &[$($entry),*];
+
+        /// The law of a running filter.
+        #[allow(missing_docs)]
+        #[derive(Clone, Debug, Serialize, Deserialize)]
+        pub enum Law { $($variant(Box<$law>)),* }
+
+        $(impl From<$law> for Law {
+            fn from(law: $law) -> Self {
+                Self::$variant(Box::new(law))
+            }
+        })*
+
+        impl Law {
+            fn inner(&self) -> &dyn Adaptation {
+                match self { $(Self::$variant(law) => law.as_ref()),* }
+            }
+            fn inner_mut(&mut self) -> &mut dyn Adaptation {
+                match self { $(Self::$variant(law) => law.as_mut()),* }
+            }
+        }
+    };
+}
+
+registry! {
+    FixedQ => fixed_q::FixedQ, fixed_q::ENTRY;
+    Milton => milton::Milton, milton::ENTRY;
+}
+
+impl Adaptation for Law {
+    fn process_noise(&self, dt: f64) -> TargetMatrix {
+        self.inner().process_noise(dt)
+    }
+    fn observe(&mut self, step: Step) -> Result<(), FilterError> {
+        self.inner_mut().observe(step)
+    }
+    fn s(&self) -> Vector3<f64> {
+        self.inner().s()
+    }
+    fn updates(&self) -> i32 {
+        self.inner().updates()
+    }
+    fn skipped(&self) -> i32 {
+        self.inner().skipped()
+    }
+}

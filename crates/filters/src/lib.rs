@@ -1,0 +1,28 @@
+//! Navigation filters: one extended Kalman filter and, plugged into it, one file per adaptation law.
+//!
+//! * [`Navigator`] takes sensor samples one by one and holds the estimate; start reading there.
+//! * [`ekf`] propagates and updates; it is written once, so a difference in results is a difference in the law.
+//! * [`laws`] holds the laws and their registry: adding a filter is one file and one line.
+//! * [`scenarios`] holds what a filter believes of each world: gravity, initial covariance, defaults of the laws.
+//!
+//! Nothing here knows of the simulated truth, and nothing here knows of FMI.
+
+mod beliefs;
+pub mod ekf;
+mod error;
+mod gravity;
+pub mod jerk;
+pub mod laws;
+mod navigator;
+mod sample;
+pub mod scenarios;
+pub mod state;
+pub mod tunable;
+mod units;
+
+pub use beliefs::Beliefs;
+pub use error::FilterError;
+pub use gravity::Gravity;
+pub use navigator::{Estimate, Innovation, Navigator, Settings, Status};
+pub use sample::Sample;
+pub use units::Units;

@@ -1,0 +1,19 @@
+//! One sensor sample as it reaches a filter, SI.
+
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// What the sensors report at one epoch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// Ordinal, from 1.
+    pub count: i32,
+    /// Epoch, s.
+    pub time: f64,
+    /// Range (m), azimuth and elevation (rad) of the target in LiDAR axes; `None` on a dropout.
+    pub lidar: Option<Vector3<f64>>,
+    /// Accelerometer reading just after the epoch, chaser body axes, m/s2.
+    pub alpha_c_bc: Vector3<f64>,
+    /// Attitude at the epoch: axes N to chaser body.
+    pub dcm_bc_n: Matrix3<f64>,
+}

@@ -1,0 +1,41 @@
+//! Low Earth orbit with a venting target: two-body gravity with J2 to J4 (Mamich and Zanetti, Sec. IV.A).
+
+use super::ScenarioEntry;
+use crate::{Beliefs, FilterError, Gravity, Units};
+use astro::ZonalGravity;
+
+pub(super) const ENTRY: ScenarioEntry = ScenarioEntry {
+    name: "leo_venting",
+    about: "rendezvous in low Earth orbit with a crewed target that vents (Mamich and Zanetti, Sec. IV.A)",
+    duration: 5680.0,
+    units: Units::SI,
+    gravity,
+    defaults: &[
+        // Eq. (35); its third block is a_t for the target and b_c for the chaser.
+        ("p0.sigma_position", 25.0 / 3.0),
+        ("p0.sigma_velocity", 0.1),
+        ("p0.sigma_acceleration", 1e-9),
+        ("p0.sigma_bias", 1e-9),
+        ("chaser.q_c", 1e-12),
+        ("milton.psi0", 1e-3),
+        ("milton.q_w", 1e-5),
+        ("milton.r_w", 1.0),
+        ("milton.s0", 1e-6),
+    ],
+};
+
+fn gravity(beliefs: &Beliefs) -> Result<Gravity, FilterError> {
+    for (name, value, unit) in
+        [("gravity.mu", beliefs.gravity_mu, "m3/s2"), ("gravity.radius", beliefs.gravity_radius, "m")]
+    {
+        if value <= 0.0 {
+            return Err(FilterError::OutOfRange { name: name.into(), value, unit, permitted: "greater than 0" });
+        }
+    }
+    let [j2, j3, j4] = beliefs.gravity_j;
+    Ok(Gravity::Zonal(ZonalGravity {
+        mu: beliefs.gravity_mu,
+        r_ref: beliefs.gravity_radius,
+        j: [j2, j3, j4, 0.0, 0.0],
+    }))
+}

@@ -1,0 +1,35 @@
+//! What a filter believes of each world. A scenario is one file with an `ENTRY` and one line in [`SCENARIOS`].
+
+mod leo_venting;
+
+use crate::{Beliefs, FilterError, Gravity, Units};
+
+/// A world as a filter sees it.
+pub struct ScenarioEntry {
+    /// Name, as in the FMU's `scenario` enumeration.
+    pub name: &'static str,
+    /// One line for reports and for the enumeration's description.
+    pub about: &'static str,
+    /// Nominal duration, s.
+    pub duration: f64,
+    /// Units the filter works and adapts in.
+    pub units: Units,
+    /// Gravity model, in those units, from the user's parameters.
+    pub gravity: fn(&Beliefs) -> Result<Gravity, FilterError>,
+    /// The scenario's own values (SI unless the parameter says otherwise) for parameters left at -1, by full name.
+    pub defaults: &'static [(&'static str, f64)],
+}
+
+/// Every scenario, in the order of the FMU's enumeration.
+pub const SCENARIOS: &[ScenarioEntry] = &[leo_venting::ENTRY];
+
+impl ScenarioEntry {
+    /// `value`, or the scenario's own when it is left at -1.
+    pub(crate) fn resolve(&self, name: &str, value: f64) -> Result<f64, FilterError> {
+        if value != Beliefs::OWN {
+            return Ok(value);
+        }
+        let own = self.defaults.iter().find(|(n, _)| *n == name);
+        own.map(|(_, v)| *v).ok_or(FilterError::NoScenarioDefault { name: name.into(), scenario: self.name })
+    }
+}

@@ -1,0 +1,142 @@
+//! The adapter: parameters and inputs as a master sets them on one side, a running [`Navigator`] on the other.
+
+use crate::variables;
+use filters::laws::FILTERS;
+use filters::scenarios::SCENARIOS;
+use filters::state::State;
+use filters::{Navigator, Sample, Settings, Status};
+use fmi2_export::{Element, Experiment, Log, Model, ModelError, ModelInfo, Table, VendorAnnotation};
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+use std::sync::OnceLock;
+
+/// The inputs as set; they take effect in a step only.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Inputs {
+    /// `sample_time`, s.
+    pub sample_time: f64,
+    /// `sample_count`.
+    pub sample_count: i32,
+    /// `lidar.valid`.
+    pub lidar_valid: bool,
+    /// `lidar.range` (m), `lidar.azimuth` and `lidar.elevation` (rad).
+    pub lidar: Vector3<f64>,
+    /// `accelerometer.alpha_c_bc`, m/s2.
+    pub alpha_c_bc: Vector3<f64>,
+    /// `dcm_bc_n`.
+    pub dcm_bc_n: Matrix3<f64>,
+    /// `nav_init.x`, SI.
+    pub nav_init: State,
+}
+
+/// One slave.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct NavModel {
+    /// Parameters.
+    pub settings: Settings,
+    /// Inputs.
+    pub inputs: Inputs,
+    /// The filter, from initialization on.
+    pub navigator: Option<Navigator>,
+}
+
+impl NavModel {
+    /// A value of the running filter, or the default of its type before initialization.
+    pub fn read<T: Default>(&self, value: impl Fn(&Navigator) -> T) -> T {
+        self.navigator.as_ref().map(value).unwrap_or_default()
+    }
+}
+
+impl Model for NavModel {
+    fn info() -> &'static ModelInfo {
+        static INFO: OnceLock<ModelInfo> = OnceLock::new();
+        INFO.get_or_init(|| ModelInfo {
+            model_name: "fmu-nav",
+            model_identifier: "fmu_nav",
+            description: "Relative navigation filters of a chaser that approaches a venting target",
+            version: env!("CARGO_PKG_VERSION"),
+            license: "MIT OR Apache-2.0",
+            default_stop: SCENARIOS.first().map_or(1.0, |s| s.duration),
+            default_step: 1.0,
+            vendor_annotations: vec![VendorAnnotation { tool: "trade-harness", content: vec![presets()] }],
+            ..ModelInfo::default()
+        })
+    }
+
+    fn table() -> &'static Table<Self> {
+        static TABLE: OnceLock<Table<NavModel>> = OnceLock::new();
+        TABLE.get_or_init(variables::table)
+    }
+
+    fn blank() -> Self {
+        Self {
+            settings: Settings::default(),
+            inputs: Inputs {
+                sample_time: 0.0,
+                sample_count: 0,
+                lidar_valid: false,
+                lidar: Vector3::zeros(),
+                alpha_c_bc: Vector3::zeros(),
+                dcm_bc_n: Matrix3::identity(),
+                nav_init: State::zeros(),
+            },
+            navigator: None,
+        }
+    }
+
+    fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError> {
+        self.navigator = Some(Navigator::new(&self.settings, experiment.start_time)?);
+        log.event(format_args!(
+            "filter {} in scenario {} starts at t = {} s",
+            self.settings.filter()?.name,
+            self.settings.scenario()?.name,
+            experiment.start_time
+        ));
+        Ok(())
+    }
+
+    fn do_step(&mut self, _t: f64, _h: f64, log: &mut Log<'_>) -> Result<(), ModelError> {
+        let Some(navigator) = &mut self.navigator else { return Ok(()) };
+        let (before, inputs) = (navigator.status(), &self.inputs);
+        // Count 0 is "no sample yet"; anything at or below the last count has been used.
+        if inputs.sample_count <= navigator.estimate().count {
+            return Ok(());
+        }
+        let sample = Sample {
+            count: inputs.sample_count,
+            time: inputs.sample_time,
+            lidar: inputs.lidar_valid.then_some(inputs.lidar),
+            alpha_c_bc: inputs.alpha_c_bc,
+            dcm_bc_n: inputs.dcm_bc_n,
+        };
+        navigator.process(&sample, &inputs.nav_init)?;
+        let now = navigator.status();
+        if now != before {
+            log.event(format_args!("at t = {} s: {}", sample.time, status_name(now)));
+        }
+        Ok(())
+    }
+}
+
+fn status_name(status: Status) -> &'static str {
+    Status::ALL.iter().find(|(s, _)| *s == status).map_or("", |(_, name)| name)
+}
+
+/// The named parameter sets of every filter, for `trade-harness`.
+fn presets() -> Element {
+    let mut all = Element::new("Presets");
+    for filter in FILTERS {
+        for preset in filter.presets {
+            let mut element = Element::new("Preset")
+                .attribute("filter", filter.name)
+                .attribute("name", preset.name)
+                .attribute("about", preset.about);
+            for (tunable, value) in preset.sets {
+                let variable = format!("{}.{}", filter.name, tunable);
+                element = element.child(Element::new("Set").attribute("variable", variable).attribute("value", *value));
+            }
+            all = all.child(element);
+        }
+    }
+    all
+}
