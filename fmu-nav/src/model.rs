@@ -58,7 +58,10 @@ impl Model for NavModel {
             license: "MIT OR Apache-2.0",
             default_stop: SCENARIOS.first().map_or(1.0, |s| s.duration),
             default_step: 1.0,
-            vendor_annotations: vec![VendorAnnotation { tool: "trade-harness", content: vec![presets()] }],
+            vendor_annotations: vec![VendorAnnotation {
+                tool: "trade-harness",
+                content: vec![presets()],
+            }],
             ..ModelInfo::default()
         })
     }
@@ -96,7 +99,9 @@ impl Model for NavModel {
     }
 
     fn do_step(&mut self, _t: f64, _h: f64, log: &mut Log<'_>) -> Result<(), ModelError> {
-        let Some(navigator) = &mut self.navigator else { return Ok(()) };
+        let Some(navigator) = &mut self.navigator else {
+            return Ok(());
+        };
         let (before, inputs) = (navigator.status(), &self.inputs);
         // Count 0 is "no sample yet"; anything at or below the last count has been used.
         if inputs.sample_count <= navigator.estimate().count {
@@ -119,7 +124,10 @@ impl Model for NavModel {
 }
 
 fn status_name(status: Status) -> &'static str {
-    Status::ALL.iter().find(|(s, _)| *s == status).map_or("", |(_, name)| name)
+    Status::ALL
+        .iter()
+        .find(|(s, _)| *s == status)
+        .map_or("", |(_, name)| name)
 }
 
 /// The named parameter sets of every filter, for `trade-harness`.
@@ -133,7 +141,11 @@ fn presets() -> Element {
                 .attribute("about", preset.about);
             for (tunable, value) in preset.sets {
                 let variable = format!("{}.{}", filter.name, tunable);
-                element = element.child(Element::new("Set").attribute("variable", variable).attribute("value", *value));
+                element = element.child(
+                    Element::new("Set")
+                        .attribute("variable", variable)
+                        .attribute("value", *value),
+                );
             }
             all = all.child(element);
         }

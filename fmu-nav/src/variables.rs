@@ -29,10 +29,27 @@ pub fn table() -> Table<NavModel> {
 }
 
 fn types(t: &mut Builder) {
-    t.enumeration_type("Scenario", "world that the filter believes in", SCENARIOS.iter().map(|s| (s.name, s.about)));
-    t.enumeration_type("Filter", "registered filters", FILTERS.iter().map(|f| (f.name, f.about)));
-    let about = ["no sample yet", "newest sample used", "newest sample had no LiDAR measurement", "innovations far too large"];
-    t.enumeration_type("Status", "what the filter is doing", Status::ALL.iter().zip(about).map(|((_, n), a)| (*n, a)));
+    t.enumeration_type(
+        "Scenario",
+        "world that the filter believes in",
+        SCENARIOS.iter().map(|s| (s.name, s.about)),
+    );
+    t.enumeration_type(
+        "Filter",
+        "registered filters",
+        FILTERS.iter().map(|f| (f.name, f.about)),
+    );
+    let about = [
+        "no sample yet",
+        "newest sample used",
+        "newest sample had no LiDAR measurement",
+        "innovations far too large",
+    ];
+    t.enumeration_type(
+        "Status",
+        "what the filter is doing",
+        Status::ALL.iter().zip(about).map(|((_, n), a)| (*n, a)),
+    );
     let mut known = Vec::new();
     for tunable in FILTERS.iter().flat_map(|f| f.tunables) {
         if let Kind::Choice { type_name, items } = tunable.kind
@@ -49,7 +66,10 @@ fn study(t: &mut Builder) {
         .parameter()
         .start(1)
         .about("chooses dynamics, state and the defaults of parameters left at -1")
-        .rw(|m| m.settings.scenario as i32 + 1, |m, v| m.settings.scenario = index(v));
+        .rw(
+            |m| m.settings.scenario as i32 + 1,
+            |m, v| m.settings.scenario = index(v),
+        );
     t.enumeration("filter", "Filter")
         .parameter()
         .start(1)
@@ -60,13 +80,19 @@ fn study(t: &mut Builder) {
         .min(0)
         .start(1)
         .about("seed of the study, for the random start of the adaptation")
-        .rw(|m| m.settings.study_seed as i32, |m, v| m.settings.study_seed = v.unsigned_abs().into());
+        .rw(
+            |m| m.settings.study_seed as i32,
+            |m, v| m.settings.study_seed = v.unsigned_abs().into(),
+        );
     t.integer("run")
         .parameter()
         .min(0)
         .start(0)
         .about("run within the study")
-        .rw(|m| m.settings.run as i32, |m, v| m.settings.run = v.unsigned_abs().into());
+        .rw(
+            |m| m.settings.run as i32,
+            |m, v| m.settings.run = v.unsigned_abs().into(),
+        );
 }
 
 /// From an FMI enumeration value, counted from 1 and range-checked before it gets here, to an index.
@@ -92,47 +118,137 @@ fn belief(t: &mut Builder, name: &str, unit: &str, bound: Bound, about: &str, fi
         Bound::NonNegative => row.min(0.0),
         Bound::Any => row,
     };
-    row = if start == Beliefs::OWN { row.own_default() } else { row.start(start) };
-    row.rw(move |m| read(&m.settings, field), move |m, v| *field(&mut m.settings.beliefs) = v);
+    row = if start == Beliefs::OWN {
+        row.own_default()
+    } else {
+        row.start(start)
+    };
+    row.rw(
+        move |m| read(&m.settings, field),
+        move |m, v| *field(&mut m.settings.beliefs) = v,
+    );
 }
 
 fn beliefs(t: &mut Builder) {
     use Bound::{Any, NonNegative, Positive};
     let one = "initial standard deviation of one vehicle's";
-    belief(t, "p0.sigma_position", "m", Positive, &format!("{one} position, per axis"), |b| &mut b.p0_sigma_position);
-    belief(t, "p0.sigma_velocity", "m/s", Positive, &format!("{one} velocity, per axis"), |b| &mut b.p0_sigma_velocity);
-    belief(t, "p0.sigma_acceleration", "m/s2", Positive, "initial standard deviation of a_t, per axis", |b| {
-        &mut b.p0_sigma_acceleration
-    });
-    belief(t, "p0.sigma_bias", "m/s2", Positive, "initial standard deviation of the accelerometer bias, per axis", |b| {
-        &mut b.p0_sigma_bias
-    });
-    belief(t, "chaser.q_c", "m2/s3", NonNegative, "white acceleration density of the chaser, per axis", |b| {
-        &mut b.chaser_q_c
-    });
+    belief(
+        t,
+        "p0.sigma_position",
+        "m",
+        Positive,
+        &format!("{one} position, per axis"),
+        |b| &mut b.p0_sigma_position,
+    );
+    belief(
+        t,
+        "p0.sigma_velocity",
+        "m/s",
+        Positive,
+        &format!("{one} velocity, per axis"),
+        |b| &mut b.p0_sigma_velocity,
+    );
+    belief(
+        t,
+        "p0.sigma_acceleration",
+        "m/s2",
+        Positive,
+        "initial standard deviation of a_t, per axis",
+        |b| &mut b.p0_sigma_acceleration,
+    );
+    belief(
+        t,
+        "p0.sigma_bias",
+        "m/s2",
+        Positive,
+        "initial standard deviation of the accelerometer bias, per axis",
+        |b| &mut b.p0_sigma_bias,
+    );
+    belief(
+        t,
+        "chaser.q_c",
+        "m2/s3",
+        NonNegative,
+        "white acceleration density of the chaser, per axis",
+        |b| &mut b.chaser_q_c,
+    );
     t.boolean("chaser.q_coupled")
         .parameter()
         .start(Beliefs::default().chaser_q_coupled)
         .about("whether the chaser's process noise also enters v_tc, with opposite sign")
-        .rw(|m| m.settings.beliefs.chaser_q_coupled, |m, v| m.settings.beliefs.chaser_q_coupled = v);
+        .rw(
+            |m| m.settings.beliefs.chaser_q_coupled,
+            |m, v| m.settings.beliefs.chaser_q_coupled = v,
+        );
     let gate = "readings of at least this norm drive the propagation, those below observe the bias";
-    belief(t, "accelerometer.gate", "m/s2", NonNegative, gate, |b| &mut b.accelerometer_gate);
-    belief(t, "accelerometer.beta", "1/s", NonNegative, "inverse time constant of the accelerometer bias", |b| {
-        &mut b.accelerometer_beta
+    belief(t, "accelerometer.gate", "m/s2", NonNegative, gate, |b| {
+        &mut b.accelerometer_gate
     });
-    belief(t, "accelerometer.bias_sigma", "m/s2", NonNegative, "standard deviation of the bias walk per 1 s", |b| {
-        &mut b.accelerometer_bias_sigma
+    belief(
+        t,
+        "accelerometer.beta",
+        "1/s",
+        NonNegative,
+        "inverse time constant of the accelerometer bias",
+        |b| &mut b.accelerometer_beta,
+    );
+    belief(
+        t,
+        "accelerometer.bias_sigma",
+        "m/s2",
+        NonNegative,
+        "standard deviation of the bias walk per 1 s",
+        |b| &mut b.accelerometer_bias_sigma,
+    );
+    belief(
+        t,
+        "r.sigma_range",
+        "m",
+        Positive,
+        "standard deviation of the range",
+        |b| &mut b.r_sigma_range,
+    );
+    belief(
+        t,
+        "r.sigma_angle",
+        "rad",
+        Positive,
+        "standard deviation of azimuth and elevation",
+        |b| &mut b.r_sigma_angle,
+    );
+    belief(
+        t,
+        "r.sigma_accelerometer",
+        "m/s2",
+        Positive,
+        "standard deviation of an accelerometer sample, per axis",
+        |b| &mut b.r_sigma_accelerometer,
+    );
+    belief(
+        t,
+        "gravity.mu",
+        "m3/s2",
+        Positive,
+        "gravitational parameter of the Earth",
+        |b| &mut b.gravity_mu,
+    );
+    belief(
+        t,
+        "gravity.radius",
+        "m",
+        Positive,
+        "reference radius of the zonal harmonics",
+        |b| &mut b.gravity_radius,
+    );
+    belief(t, "gravity.j2", "1", Any, "second zonal harmonic", |b| {
+        &mut b.gravity_j[0]
     });
-    belief(t, "r.sigma_range", "m", Positive, "standard deviation of the range", |b| &mut b.r_sigma_range);
-    belief(t, "r.sigma_angle", "rad", Positive, "standard deviation of azimuth and elevation", |b| &mut b.r_sigma_angle);
-    belief(t, "r.sigma_accelerometer", "m/s2", Positive, "standard deviation of an accelerometer sample, per axis", |b| {
-        &mut b.r_sigma_accelerometer
+    belief(t, "gravity.j3", "1", Any, "third zonal harmonic", |b| {
+        &mut b.gravity_j[1]
     });
-    belief(t, "gravity.mu", "m3/s2", Positive, "gravitational parameter of the Earth", |b| &mut b.gravity_mu);
-    belief(t, "gravity.radius", "m", Positive, "reference radius of the zonal harmonics", |b| &mut b.gravity_radius);
-    belief(t, "gravity.j2", "1", Any, "second zonal harmonic", |b| &mut b.gravity_j[0]);
-    belief(t, "gravity.j3", "1", Any, "third zonal harmonic", |b| &mut b.gravity_j[1]);
-    belief(t, "gravity.j4", "1", Any, "fourth zonal harmonic", |b| &mut b.gravity_j[2]);
+    belief(t, "gravity.j4", "1", Any, "fourth zonal harmonic", |b| {
+        &mut b.gravity_j[2]
+    });
     let diverged = "the filter calls itself diverged when the running mean of NIS / 3 exceeds this";
     belief(t, "divergence.nis", "1", Positive, diverged, |b| &mut b.divergence_nis);
     t.integer("divergence.samples")
@@ -140,7 +256,10 @@ fn beliefs(t: &mut Builder) {
         .min(1)
         .start(Beliefs::default().divergence_samples)
         .about("time constant of that running mean, samples")
-        .rw(|m| m.settings.beliefs.divergence_samples, |m, v| m.settings.beliefs.divergence_samples = v);
+        .rw(
+            |m| m.settings.beliefs.divergence_samples,
+            |m, v| m.settings.beliefs.divergence_samples = v,
+        );
 }
 
 /// Defines the accessors of one tunable's value, stored in the variant that its kind calls for.
@@ -175,11 +294,21 @@ fn tunable_row(t: &mut Builder, filter: &str, tunable: &Tunable, f: usize, i: us
         }
         Kind::Integer { start, min, max } => {
             let (get, set) = stored!(f, i, Integer, 0);
-            t.integer(name).parameter().min(min).max(max).start(start).about(tunable.about).rw(get, set);
+            t.integer(name)
+                .parameter()
+                .min(min)
+                .max(max)
+                .start(start)
+                .about(tunable.about)
+                .rw(get, set);
         }
         Kind::Boolean { start } => {
             let (get, set) = stored!(f, i, Boolean, false);
-            t.boolean(name).parameter().start(start).about(tunable.about).rw(get, set);
+            t.boolean(name)
+                .parameter()
+                .start(start)
+                .about(tunable.about)
+                .rw(get, set);
         }
         Kind::Choice { type_name, .. } => {
             let (get, set) = stored!(f, i, Choice, 0);
@@ -247,7 +376,12 @@ fn inputs(t: &mut Builder) {
         .unit("1")
         .about("direction cosine matrix, axes N to chaser body")
         .start_by(|i| if i % 4 == 0 { 1.0 } else { 0.0 })
-        .matrix_rw(3, 3, |m, i, j| m.inputs.dcm_bc_n[(i, j)], |m, i, j, v| m.inputs.dcm_bc_n[(i, j)] = v);
+        .matrix_rw(
+            3,
+            3,
+            |m, i, j| m.inputs.dcm_bc_n[(i, j)],
+            |m, i, j, v| m.inputs.dcm_bc_n[(i, j)] = v,
+        );
     t.real("nav_init.x")
         .input()
         .discrete()
@@ -263,12 +397,22 @@ fn outputs(t: &mut Builder) {
         .unit("s")
         .about("epoch of the sample last used")
         .get(|m| m.read(|n| n.estimate().time));
-    t.integer("est.count").output().about("ordinal of the sample last used").get(|m| m.read(|n| n.estimate().count));
+    t.integer("est.count")
+        .output()
+        .about("ordinal of the sample last used")
+        .get(|m| m.read(|n| n.estimate().count));
     t.integer("est.dimension")
         .output()
         .about("states with a covariance: relative position, velocity and acceleration")
         .get(|_| filters::state::N_TARGET as i32);
-    let names = ["est.r_tc_n", "est.v_tc_n", "est.a_t_n", "est.r_c_n", "est.v_c_n", "est.b_c_bc"];
+    let names = [
+        "est.r_tc_n",
+        "est.v_tc_n",
+        "est.a_t_n",
+        "est.r_c_n",
+        "est.v_c_n",
+        "est.b_c_bc",
+    ];
     let about = [
         "target relative to chaser, position, axes N",
         "target relative to chaser, velocity, axes N",
@@ -297,11 +441,21 @@ fn outputs(t: &mut Builder) {
         .unit("m/s^2.5")
         .about_by(|i| format!("square root of the jerk density in use, axis N {}", AXES[i]))
         .vector(3, |m, i| m.read(|n| n.s()[i]));
-    t.integer("q.updates").output().about("times the law changed its process noise").get(|m| m.read(|n| n.updates()));
-    t.enumeration("status", "Status").output().about("what the filter is doing").get(|m| {
-        let status = m.navigator.as_ref().map_or(Status::Initialising, |n| n.status());
-        Status::ALL.iter().zip(1..).find(|((s, _), _)| *s == status).map_or(1, |(_, i)| i)
-    });
+    t.integer("q.updates")
+        .output()
+        .about("times the law changed its process noise")
+        .get(|m| m.read(|n| n.updates()));
+    t.enumeration("status", "Status")
+        .output()
+        .about("what the filter is doing")
+        .get(|m| {
+            let status = m.navigator.as_ref().map_or(Status::Initialising, |n| n.status());
+            Status::ALL
+                .iter()
+                .zip(1..)
+                .find(|((s, _), _)| *s == status)
+                .map_or(1, |(_, i)| i)
+        });
 }
 
 fn locals(t: &mut Builder) {
@@ -316,10 +470,20 @@ fn locals(t: &mut Builder) {
         .unit_by(|i| STATE_UNITS[i / 3])
         .about_by(|i| format!("standard deviation of {}", state_label(i)))
         .vector(18, |m, i| m.read(|n| n.estimate().sigma[i]));
-    for (i, (name, unit)) in
-        [("innov.range", "m"), ("innov.azimuth", "rad"), ("innov.elevation", "rad")].into_iter().enumerate()
+    for (i, (name, unit)) in [
+        ("innov.range", "m"),
+        ("innov.azimuth", "rad"),
+        ("innov.elevation", "rad"),
+    ]
+    .into_iter()
+    .enumerate()
     {
-        let mut row = t.real(name).local().discrete().unit(unit).about("measured minus predicted");
+        let mut row = t
+            .real(name)
+            .local()
+            .discrete()
+            .unit(unit)
+            .about("measured minus predicted");
         if unit == "rad" {
             row = row.display_unit("deg");
         }
@@ -329,7 +493,12 @@ fn locals(t: &mut Builder) {
         .local()
         .discrete()
         .unit_by(|i| if i == 0 { "m2" } else { "rad2" })
-        .about_by(|i| format!("predicted variance of the innovation, {}", ["range", "azimuth", "elevation"][i]))
+        .about_by(|i| {
+            format!(
+                "predicted variance of the innovation, {}",
+                ["range", "azimuth", "elevation"][i]
+            )
+        })
         .vector(3, |m, i| m.read(|n| n.innovation().variance[i]));
     t.integer("q.skipped")
         .local()

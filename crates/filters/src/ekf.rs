@@ -55,20 +55,29 @@ impl Dynamics {
         inertial.fixed_rows_mut::<3>(0).copy_from(&(part(x, idx::R_TC) + r_c));
         inertial.fixed_rows_mut::<3>(3).copy_from(&(part(x, idx::V_TC) + v_c));
         let end = rk4::step(0.0, &inertial, dt, |_, y| {
-            let (r_t, v_t, r_c, v_c, b) =
-                (part(y, 0..3), part(y, 3..6), part(y, idx::R_C), part(y, idx::V_C), part(y, idx::B_C));
+            let (r_t, v_t, r_c, v_c, b) = (
+                part(y, 0..3),
+                part(y, 3..6),
+                part(y, idx::R_C),
+                part(y, idx::V_C),
+                part(y, idx::B_C),
+            );
             let drive = thrust.map_or_else(Vector3::zeros, |t| t.dcm_n_bc * (t.alpha_c_bc - b));
             let mut dy = State::zeros();
             dy.fixed_rows_mut::<3>(0).copy_from(&v_t);
-            dy.fixed_rows_mut::<3>(3).copy_from(&(self.gravity.acceleration(&r_t, &v_t) + a_t));
+            dy.fixed_rows_mut::<3>(3)
+                .copy_from(&(self.gravity.acceleration(&r_t, &v_t) + a_t));
             dy.fixed_rows_mut::<3>(9).copy_from(&v_c);
-            dy.fixed_rows_mut::<3>(12).copy_from(&(self.gravity.acceleration(&r_c, &v_c) + drive));
+            dy.fixed_rows_mut::<3>(12)
+                .copy_from(&(self.gravity.acceleration(&r_c, &v_c) + drive));
             dy.fixed_rows_mut::<3>(15).copy_from(&(b * -self.beta));
             dy
         });
         let mut out = end;
-        out.fixed_rows_mut::<3>(0).copy_from(&(part(&end, 0..3) - part(&end, idx::R_C)));
-        out.fixed_rows_mut::<3>(3).copy_from(&(part(&end, 3..6) - part(&end, idx::V_C)));
+        out.fixed_rows_mut::<3>(0)
+            .copy_from(&(part(&end, 0..3) - part(&end, idx::R_C)));
+        out.fixed_rows_mut::<3>(3)
+            .copy_from(&(part(&end, 3..6) - part(&end, idx::V_C)));
         out
     }
 
@@ -95,7 +104,8 @@ impl Dynamics {
         let mut f = StateMatrix::zeros();
         f.fixed_view_mut::<9, 9>(0, 0).copy_from(&target);
         f.fixed_view_mut::<9, 9>(9, 9).copy_from(&chaser);
-        f.fixed_view_mut::<9, 6>(0, 9).copy_from(&target.fixed_view::<9, 6>(0, 0));
+        f.fixed_view_mut::<9, 6>(0, 9)
+            .copy_from(&target.fixed_view::<9, 6>(0, 0));
         let mut relative = f.fixed_view_mut::<6, 9>(0, 9);
         relative -= chaser.fixed_view::<6, 9>(0, 0);
         f
@@ -131,7 +141,13 @@ impl Dynamics {
     /// Time update, Eq. (3): mean by Runge-Kutta, covariance F P F^T + Q.
     ///
     /// * returns: the transition matrix used, 18x18.
-    pub fn predict(&self, est: &mut Gaussian, dt: f64, thrust: Option<&Thrust>, q_target: &TargetMatrix) -> StateMatrix {
+    pub fn predict(
+        &self,
+        est: &mut Gaussian,
+        dt: f64,
+        thrust: Option<&Thrust>,
+        q_target: &TargetMatrix,
+    ) -> StateMatrix {
         let f = self.transition(&est.x, dt, thrust);
         est.x = self.propagate_mean(&est.x, dt, thrust);
         est.p = spd::symmetrised(&(f * est.p * f.transpose())) + self.process_noise(q_target, dt);
@@ -167,7 +183,9 @@ pub struct NotSpd {
 pub fn update<const M: usize>(est: &mut Gaussian, m: &Measurement<M>) -> Result<SMatrix<f64, M, M>, NotSpd> {
     let hp = m.h * est.p;
     let s = spd::symmetrised(&(hp * m.h.transpose())) + SMatrix::<f64, M, M>::from_diagonal(&m.r);
-    let l = spd::cholesky(&s).ok_or(NotSpd { min_diagonal: s.diagonal().min() })?;
+    let l = spd::cholesky(&s).ok_or(NotSpd {
+        min_diagonal: s.diagonal().min(),
+    })?;
     let mut k = SMatrix::<f64, N, M>::zeros();
     for row in (0..N).filter(|row| !idx::CONSIDER.contains(row)) {
         k.set_row(row, &spd::cholesky_solve(&l, &hp.column(row).into_owned()).transpose());
@@ -189,7 +207,8 @@ pub fn update<const M: usize>(est: &mut Gaussian, m: &Measurement<M>) -> Result<
 pub fn lidar_rows(r_tc_n: &Vector3<f64>, dcm_l_n: &Matrix3<f64>) -> (Vector3<f64>, LidarRows) {
     let predicted = sensors::lidar::measure(&(dcm_l_n * r_tc_n));
     let mut h = LidarRows::zeros();
-    h.fixed_view_mut::<3, 3>(0, 0).copy_from(&sensors::lidar::jacobian(r_tc_n, dcm_l_n));
+    h.fixed_view_mut::<3, 3>(0, 0)
+        .copy_from(&sensors::lidar::jacobian(r_tc_n, dcm_l_n));
     (predicted, h)
 }
 
@@ -259,7 +278,10 @@ mod tests {
 
     fn thrust() -> Thrust {
         let dcm = nalgebra::Rotation3::from_euler_angles(0.3, -1.1, 2.0).into_inner();
-        Thrust { alpha_c_bc: Vector3::new(3e-3, -1e-2, 2e-3), dcm_n_bc: dcm }
+        Thrust {
+            alpha_c_bc: Vector3::new(3e-3, -1e-2, 2e-3),
+            dcm_n_bc: dcm,
+        }
     }
 
     fn random_spd(g: &mut Generator) -> StateMatrix {
@@ -281,7 +303,11 @@ mod tests {
                 let flow = |x: &State| dynamics.propagate_mean(x, 1.0, drive.as_ref());
                 let column = (flow(&up) - flow(&down)) / (2.0 * step);
                 // exp(A dt) holds the gravity gradient over the step, which turns by 1e-3 rad meanwhile: 1e-9 1/s2.
-                assert!((f.column(j) - column).amax() < 1e-8, "column {j}, driven {}", drive.is_some());
+                assert!(
+                    (f.column(j) - column).amax() < 1e-8,
+                    "column {j}, driven {}",
+                    drive.is_some()
+                );
             }
         }
     }
@@ -309,7 +335,10 @@ mod tests {
     #[test]
     fn consider_update_agrees_with_the_general_formulas() {
         let g = &mut stream(1, 0, Source::Lidar);
-        let mut est = Gaussian { x: State::from_fn(|_, _| normal(g)), p: random_spd(g) };
+        let mut est = Gaussian {
+            x: State::from_fn(|_, _| normal(g)),
+            p: random_spd(g),
+        };
         let before = est.clone();
         let m = Measurement {
             h: SMatrix::<f64, 6, N>::from_fn(|_, _| normal(g)),
@@ -327,17 +356,27 @@ mod tests {
         assert!((est.p - p).amax() < 1e-10);
         assert!((est.x - before.x - k * m.innovation).amax() < 1e-11);
         assert_eq!(est.x.fixed_rows::<6>(9), before.x.fixed_rows::<6>(9));
-        assert!((est.p - before.p).fixed_view::<6, 6>(9, 9).amax() < 1e-11, "consider states keep their covariance");
+        assert!(
+            (est.p - before.p).fixed_view::<6, 6>(9, 9).amax() < 1e-11,
+            "consider states keep their covariance"
+        );
         assert!(spd::cholesky(&est.p).is_some());
     }
 
     #[test]
     fn a_covariance_that_is_not_positive_is_refused_and_kept() {
-        let mut est = Gaussian { x: State::zeros(), p: -StateMatrix::identity() };
+        let mut est = Gaussian {
+            x: State::zeros(),
+            p: -StateMatrix::identity(),
+        };
         let before = est.clone();
         let mut h = SMatrix::<f64, 3, N>::zeros();
         h.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
-        let m = Measurement { h, innovation: Vector3::zeros(), r: Vector3::repeat(0.5) };
+        let m = Measurement {
+            h,
+            innovation: Vector3::zeros(),
+            r: Vector3::repeat(0.5),
+        };
         assert_eq!(update(&mut est, &m).unwrap_err(), NotSpd { min_diagonal: -0.5 });
         assert_eq!(est, before);
     }
@@ -361,7 +400,13 @@ mod tests {
 
     #[test]
     fn initial_covariance_is_that_of_two_independent_vehicles() {
-        let p = InitialSigma { position: 3.0, velocity: 0.2, acceleration: 1e-9, bias: 1e-8 }.covariance();
+        let p = InitialSigma {
+            position: 3.0,
+            velocity: 0.2,
+            acceleration: 1e-9,
+            bias: 1e-8,
+        }
+        .covariance();
         let mut to_vehicles = StateMatrix::identity();
         to_vehicles.fixed_view_mut::<6, 6>(0, 9).fill_with_identity();
         let v = to_vehicles * p * to_vehicles.transpose();
@@ -369,7 +414,13 @@ mod tests {
         for i in 0..N {
             for j in 0..N {
                 let bias = [1e-16; 3];
-                let want = if i != j { 0.0 } else if i >= 15 { bias[i - 15] } else { expected[i % 9] };
+                let want = if i != j {
+                    0.0
+                } else if i >= 15 {
+                    bias[i - 15]
+                } else {
+                    expected[i % 9]
+                };
                 assert!((v[(i, j)] - want).abs() < 1e-15, "{i} {j}");
             }
         }

@@ -76,7 +76,9 @@ pub enum FilterError {
         defect: f64,
     },
     /// The predicted line of sight has no direction.
-    #[error("at t = {t_s} s the predicted target lies {range_m:.3e} m from the chaser: range and angles have no partials")]
+    #[error(
+        "at t = {t_s} s the predicted target lies {range_m:.3e} m from the chaser: range and angles have no partials"
+    )]
     LineOfSightUndefined {
         /// Epoch, s.
         t_s: f64,
@@ -84,7 +86,9 @@ pub enum FilterError {
         range_m: f64,
     },
     /// The innovation covariance has no Cholesky factor.
-    #[error("at t = {t_s} s the innovation covariance is not positive definite (smallest diagonal entry {min_diagonal:.3e})")]
+    #[error(
+        "at t = {t_s} s the innovation covariance is not positive definite (smallest diagonal entry {min_diagonal:.3e})"
+    )]
     InnovationNotSpd {
         /// Epoch, s.
         t_s: f64,

@@ -14,7 +14,17 @@ pub fn gamma(dt: f64) -> Matrix3<f64> {
 /// Lower Cholesky factor of [`gamma`], in closed form and therefore without loss for any `dt`.
 pub fn gamma_factor(dt: f64) -> Matrix3<f64> {
     let (r5, r3) = (5.0_f64.sqrt(), 3.0_f64.sqrt());
-    let unit = Matrix3::new(r5 / 10.0, 0.0, 0.0, r5 / 4.0, r3 / 12.0, 0.0, r5 / 3.0, r3 / 3.0, 1.0 / 3.0);
+    let unit = Matrix3::new(
+        r5 / 10.0,
+        0.0,
+        0.0,
+        r5 / 4.0,
+        r3 / 12.0,
+        0.0,
+        r5 / 3.0,
+        r3 / 3.0,
+        1.0 / 3.0,
+    );
     let scale = Vector3::new(dt.powf(2.5), dt.powf(1.5), dt.sqrt());
     Matrix3::from_diagonal(&scale) * unit
 }
@@ -28,7 +38,13 @@ pub fn gamma_factor(dt: f64) -> Matrix3<f64> {
 /// Source: Mamich and Zanetti, Eq. (27).
 pub fn process_noise(q_psd: &Vector3<f64>, dt: f64) -> TargetMatrix {
     let g = gamma(dt);
-    TargetMatrix::from_fn(|i, j| if i % 3 == j % 3 { g[(i / 3, j / 3)] * q_psd[i % 3] } else { 0.0 })
+    TargetMatrix::from_fn(|i, j| {
+        if i % 3 == j % 3 {
+            g[(i / 3, j / 3)] * q_psd[i % 3]
+        } else {
+            0.0
+        }
+    })
 }
 
 #[cfg(test)]

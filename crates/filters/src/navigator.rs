@@ -38,8 +38,18 @@ pub struct Settings {
 impl Default for Settings {
     /// The first scenario and filter, everything at its start value.
     fn default() -> Self {
-        let tunables = FILTERS.iter().map(|f| f.tunables.iter().map(|t| t.kind.start()).collect()).collect();
-        Self { scenario: 0, filter: 0, study_seed: 1, run: 0, beliefs: Beliefs::default(), tunables }
+        let tunables = FILTERS
+            .iter()
+            .map(|f| f.tunables.iter().map(|t| t.kind.start()).collect())
+            .collect();
+        Self {
+            scenario: 0,
+            filter: 0,
+            study_seed: 1,
+            run: 0,
+            beliefs: Beliefs::default(),
+            tunables,
+        }
     }
 }
 
@@ -49,10 +59,12 @@ impl Settings {
     /// # Errors
     /// When the index is not registered.
     pub fn scenario(&self) -> Result<&'static ScenarioEntry, FilterError> {
-        SCENARIOS.get(self.scenario).ok_or_else(|| FilterError::UnknownScenario {
-            name: format!("number {}", self.scenario + 1),
-            known: SCENARIOS.iter().map(|s| s.name).collect::<Vec<_>>().join(", "),
-        })
+        SCENARIOS
+            .get(self.scenario)
+            .ok_or_else(|| FilterError::UnknownScenario {
+                name: format!("number {}", self.scenario + 1),
+                known: SCENARIOS.iter().map(|s| s.name).collect::<Vec<_>>().join(", "),
+            })
     }
 
     /// The filter chosen.
@@ -156,7 +168,12 @@ fn positive(name: &str, value: f64, unit: &'static str) -> Result<f64, FilterErr
     if value > 0.0 && value.is_finite() {
         Ok(value)
     } else {
-        Err(FilterError::OutOfRange { name: name.into(), value, unit, permitted: "greater than 0" })
+        Err(FilterError::OutOfRange {
+            name: name.into(),
+            value,
+            unit,
+            permitted: "greater than 0",
+        })
     }
 }
 
@@ -164,7 +181,12 @@ fn not_negative(name: &str, value: f64, unit: &'static str) -> Result<f64, Filte
     if value >= 0.0 && value.is_finite() {
         Ok(value)
     } else {
-        Err(FilterError::OutOfRange { name: name.into(), value, unit, permitted: "0 or greater" })
+        Err(FilterError::OutOfRange {
+            name: name.into(),
+            value,
+            unit,
+            permitted: "0 or greater",
+        })
     }
 }
 
@@ -257,10 +279,19 @@ impl Navigator {
         let (t_s, last_s) = (sample.time, self.estimate.time);
         let gap_s = t_s - last_s;
         if gap_s.is_nan() || gap_s <= 0.0 {
-            return Err(FilterError::TimeNotAdvancing { count: sample.count, t_s, last_s });
+            return Err(FilterError::TimeNotAdvancing {
+                count: sample.count,
+                t_s,
+                last_s,
+            });
         }
         if gap_s > LONGEST_GAP {
-            return Err(FilterError::GapTooLong { count: sample.count, t_s, gap_s, limit_s: LONGEST_GAP });
+            return Err(FilterError::GapTooLong {
+                count: sample.count,
+                t_s,
+                gap_s,
+                limit_s: LONGEST_GAP,
+            });
         }
         let defect = (sample.dcm_bc_n * sample.dcm_bc_n.transpose() - Matrix3::identity()).amax();
         if defect.is_nan() || defect > 1e-6 {
@@ -290,7 +321,10 @@ impl Navigator {
             innovation,
             correction: (core.x - prior).fixed_rows::<9>(0).into_owned(),
         })?;
-        self.thrust = drives.then(|| Thrust { alpha_c_bc: alpha, dcm_n_bc: sample.dcm_bc_n.transpose() });
+        self.thrust = drives.then(|| Thrust {
+            alpha_c_bc: alpha,
+            dcm_n_bc: sample.dcm_bc_n.transpose(),
+        });
         self.report(&core, sample);
         self.core = Some(core);
         Ok(())
@@ -304,7 +338,9 @@ impl Navigator {
         let dt = gap_s / parts / self.units.time;
         let mut total = TargetMatrix::identity();
         for _ in 0..parts as u32 {
-            let f = self.dynamics.predict(core, dt, self.thrust.as_ref(), &self.law.process_noise(dt));
+            let f = self
+                .dynamics
+                .predict(core, dt, self.thrust.as_ref(), &self.law.process_noise(dt));
             total = f.fixed_view::<9, 9>(0, 0) * total;
         }
         total
@@ -321,7 +357,10 @@ impl Navigator {
         drives: bool,
     ) -> Result<(LidarRows, Vector3<f64>), FilterError> {
         let t_s = sample.time;
-        let not_spd = |e: ekf::NotSpd| FilterError::InnovationNotSpd { t_s, min_diagonal: e.min_diagonal };
+        let not_spd = |e: ekf::NotSpd| FilterError::InnovationNotSpd {
+            t_s,
+            min_diagonal: e.min_diagonal,
+        };
         let bias_innovation = alpha - core.x.fixed_rows::<3>(idx::B_C.start);
         let bias_rows = |first: usize, h: &mut [f64], rows: usize| {
             // Column-major: an identity under b_c (Eq. 11 prints extra zeros).
@@ -332,7 +371,15 @@ impl Navigator {
                 let mut h = SMatrix::<f64, 3, N>::zeros();
                 bias_rows(0, h.as_mut_slice(), 3);
                 let r = Vector3::repeat(self.r_accelerometer);
-                ekf::update(core, &Measurement { h, innovation: bias_innovation, r }).map_err(not_spd)?;
+                ekf::update(
+                    core,
+                    &Measurement {
+                        h,
+                        innovation: bias_innovation,
+                        r,
+                    },
+                )
+                .map_err(not_spd)?;
             }
             self.status = Status::Coasting;
             return Ok((LidarRows::zeros(), Vector3::zeros()));
@@ -341,14 +388,24 @@ impl Navigator {
         let r_tc = core.x.fixed_rows::<3>(0).into_owned();
         let (predicted, rows) = ekf::lidar_rows(&r_tc, &(astro::frames::lidar_from_body() * sample.dcm_bc_n));
         if !rows.iter().all(|v| v.is_finite()) {
-            return Err(FilterError::LineOfSightUndefined { t_s, range_m: r_tc.norm() * self.units.length });
+            return Err(FilterError::LineOfSightUndefined {
+                t_s,
+                range_m: r_tc.norm() * self.units.length,
+            });
         }
-        let innovation =
-            Vector3::new(measured.x / self.units.length, measured.y, measured.z) - predicted;
+        let innovation = Vector3::new(measured.x / self.units.length, measured.y, measured.z) - predicted;
         let s: Matrix3<f64> = if drives {
             let mut h = SMatrix::<f64, 3, N>::zeros();
             h.fixed_view_mut::<3, 9>(0, 0).copy_from(&rows);
-            ekf::update(core, &Measurement { h, innovation, r: self.r_lidar }).map_err(not_spd)?
+            ekf::update(
+                core,
+                &Measurement {
+                    h,
+                    innovation,
+                    r: self.r_lidar,
+                },
+            )
+            .map_err(not_spd)?
         } else {
             let mut h = SMatrix::<f64, 6, N>::zeros();
             h.fixed_view_mut::<3, 9>(0, 0).copy_from(&rows);
@@ -359,9 +416,15 @@ impl Navigator {
                 innovation: stack(&innovation, &bias_innovation),
                 r: stack(&self.r_lidar, &Vector3::repeat(self.r_accelerometer)),
             };
-            ekf::update(core, &m).map_err(not_spd)?.fixed_view::<3, 3>(0, 0).into_owned()
+            ekf::update(core, &m)
+                .map_err(not_spd)?
+                .fixed_view::<3, 3>(0, 0)
+                .into_owned()
         };
-        let l = spd::cholesky(&s).ok_or(FilterError::InnovationNotSpd { t_s, min_diagonal: s.diagonal().min() })?;
+        let l = spd::cholesky(&s).ok_or(FilterError::InnovationNotSpd {
+            t_s,
+            min_diagonal: s.diagonal().min(),
+        })?;
         let nis = spd::forward_substitution(&l, &innovation).norm_squared();
         let si = Vector3::new(self.units.length, 1.0, 1.0);
         self.innovation = Innovation {
@@ -370,8 +433,11 @@ impl Navigator {
             nis,
         };
         self.divergence.mean += (nis / 3.0 - self.divergence.mean) / self.divergence.samples;
-        self.status =
-            if self.divergence.mean > self.divergence.limit { Status::Diverged } else { Status::Tracking };
+        self.status = if self.divergence.mean > self.divergence.limit {
+            Status::Diverged
+        } else {
+            Status::Tracking
+        };
         Ok((rows, innovation))
     }
 

@@ -122,12 +122,23 @@ impl Tunables<'_> {
     /// When the scenario has no value of its own or the value is out of range.
     pub fn real(&self, name: &str) -> Result<f64, FilterError> {
         let full = format!("{}.{}", self.law, name);
-        let Some((Tunable { kind: Kind::Real { start, unit, bound }, .. }, Value::Real(value))) = self.value(name) else {
+        let Some((
+            Tunable {
+                kind: Kind::Real { start, unit, bound },
+                ..
+            },
+            Value::Real(value),
+        )) = self.value(name)
+        else {
             return Err(self.mistyped(full));
         };
         let value = if start.is_none() && value == crate::Beliefs::OWN {
             let own = self.defaults.iter().find(|(n, _)| *n == full);
-            own.ok_or(FilterError::NoScenarioDefault { name: full.clone(), scenario: self.scenario })?.1
+            own.ok_or(FilterError::NoScenarioDefault {
+                name: full.clone(),
+                scenario: self.scenario,
+            })?
+            .1
         } else {
             value
         };
@@ -136,7 +147,16 @@ impl Tunables<'_> {
             Bound::NonNegative => (value >= 0.0, "0 or greater"),
             Bound::Any => (true, "finite"),
         };
-        if fits && value.is_finite() { Ok(value) } else { Err(FilterError::OutOfRange { name: full, value, unit, permitted }) }
+        if fits && value.is_finite() {
+            Ok(value)
+        } else {
+            Err(FilterError::OutOfRange {
+                name: full,
+                value,
+                unit,
+                permitted,
+            })
+        }
     }
 
     /// A whole-number tunable.
@@ -146,12 +166,23 @@ impl Tunables<'_> {
     pub fn integer(&self, name: &str) -> Result<i32, FilterError> {
         let full = format!("{}.{}", self.law, name);
         match self.value(name) {
-            Some((Tunable { kind: Kind::Integer { min, max, .. }, .. }, Value::Integer(v))) => {
+            Some((
+                Tunable {
+                    kind: Kind::Integer { min, max, .. },
+                    ..
+                },
+                Value::Integer(v),
+            )) => {
                 if (*min..=*max).contains(&v) {
                     Ok(v)
                 } else {
                     let permitted = "within the declared minimum and maximum";
-                    Err(FilterError::OutOfRange { name: full, value: f64::from(v), unit: "", permitted })
+                    Err(FilterError::OutOfRange {
+                        name: full,
+                        value: f64::from(v),
+                        unit: "",
+                        permitted,
+                    })
                 }
             }
             _ => Err(self.mistyped(full)),
@@ -175,12 +206,23 @@ impl Tunables<'_> {
     /// When no such choice is declared.
     pub fn choice(&self, name: &str) -> Result<usize, FilterError> {
         match self.value(name) {
-            Some((Tunable { kind: Kind::Choice { items, .. }, .. }, Value::Choice(v))) if v < items.len() => Ok(v),
+            Some((
+                Tunable {
+                    kind: Kind::Choice { items, .. },
+                    ..
+                },
+                Value::Choice(v),
+            )) if v < items.len() => Ok(v),
             _ => Err(self.mistyped(format!("{}.{}", self.law, name))),
         }
     }
 
     fn mistyped(&self, name: String) -> FilterError {
-        FilterError::OutOfRange { name, value: f64::NAN, unit: "", permitted: "declared with this type" }
+        FilterError::OutOfRange {
+            name,
+            value: f64::NAN,
+            unit: "",
+            permitted: "declared with this type",
+        }
     }
 }

@@ -1,94 +1,23 @@
 //! What every registered filter must do, in a world made of the filter's own assumptions: gravity of the filter, a
 //! target driven by white jerk, sensors with exactly the noise that the filter expects.
 
-use filters::ekf::{Dynamics, InitialSigma, Thrust};
+mod common;
+
+use common::OwnWorld;
 use filters::laws::FILTERS;
 use filters::state::State;
 use filters::tunable::{Kind, Value};
-use filters::{FilterError, Gravity, Navigator, Sample, Settings, Status, jerk};
-use nalgebra::{Matrix3, Vector3};
-use numerics::{Generator, Source, spd, stream};
-use rand_distr::{Distribution, StandardNormal};
-
-const SIGMA_RANGE: f64 = 0.08;
-const SIGMA_ANGLE: f64 = 0.04 * std::f64::consts::PI / 180.0;
-const SIGMA_ACCELEROMETER: f64 = 3.433e-6;
-
-fn normal(g: &mut Generator) -> f64 {
-    StandardNormal.sample(g)
-}
-
-fn normal3(g: &mut Generator) -> Vector3<f64> {
-    Vector3::from_fn(|_, _| normal(g))
-}
-
-/// The world that the filter believes in; `s` is the square root of the jerk density.
-struct OwnWorld {
-    dynamics: Dynamics,
-    x: State,
-    s: f64,
-    g: Generator,
-    k: i32,
-}
-
-impl OwnWorld {
-    fn new(run: u64, s: f64) -> (Self, State) {
-        let dynamics = Dynamics {
-            gravity: Gravity::Zonal(astro::earth::FILTER),
-            beta: 1.0 / 3600.0,
-            q_c: 1e-12,
-            q_coupled: true,
-            q_bias: 3.433e-8_f64.powi(2),
-        };
-        let mut x = State::zeros();
-        x.fixed_rows_mut::<3>(0).copy_from_slice(&[300.0, -900.0, 250.0]);
-        x.fixed_rows_mut::<3>(3).copy_from_slice(&[0.1, 0.5, -0.2]);
-        x.fixed_rows_mut::<3>(9).copy_from_slice(&[6.878e6, 0.0, 0.0]);
-        x.fixed_rows_mut::<3>(12).copy_from_slice(&[0.0, 7350.0, 1970.0]);
-        x.fixed_rows_mut::<3>(15).fill(2.943e-6);
-        let mut g = stream(11, run, Source::InitialError);
-        let p0 = InitialSigma { position: 25.0 / 3.0, velocity: 0.1, acceleration: 1e-9, bias: 1e-9 }.covariance();
-        let error = spd::cholesky(&p0).unwrap() * State::from_fn(|_, _| normal(&mut g));
-        (Self { dynamics, x, s, g, k: 0 }, x + error)
-    }
-
-    fn attitude(&self) -> Matrix3<f64> {
-        let part = |slot: usize| self.x.fixed_rows::<3>(slot).into_owned();
-        let normal = part(9).cross(&part(12)).normalize();
-        astro::frames::los_body_axes(&part(0), &part(3), &normal)
-    }
-
-    /// One second of truth and the sample at its end; the chaser thrusts during every tenth minute.
-    fn step(&mut self) -> Sample {
-        let before = self.attitude();
-        let force = |k: i32| if (k / 60) % 10 == 5 { Vector3::new(2e-3, -1e-3, 5e-4) } else { Vector3::zeros() };
-        let bias = self.x.fixed_rows::<3>(15).into_owned();
-        let thrust = Thrust { alpha_c_bc: before * force(self.k) + bias, dcm_n_bc: before.transpose() };
-        self.x = self.dynamics.propagate_mean(&self.x, 1.0, Some(&thrust));
-        let q = self.dynamics.process_noise(&jerk::process_noise(&Vector3::repeat(self.s * self.s), 1.0), 1.0);
-        let l = spd::cholesky(&q).unwrap();
-        self.x += l * State::from_fn(|_, _| normal(&mut self.g));
-        self.k += 1;
-        let dcm_bc_n = self.attitude();
-        let rho = astro::frames::lidar_from_body() * dcm_bc_n * self.x.fixed_rows::<3>(0);
-        let sigma = Vector3::new(SIGMA_RANGE, SIGMA_ANGLE, SIGMA_ANGLE);
-        let noise = normal3(&mut self.g).component_mul(&sigma);
-        let alpha = dcm_bc_n * force(self.k)
-            + self.x.fixed_rows::<3>(15)
-            + normal3(&mut self.g) * SIGMA_ACCELEROMETER;
-        Sample {
-            count: self.k,
-            time: f64::from(self.k),
-            lidar: Some(sensors::lidar::measure(&rho) + noise),
-            alpha_c_bc: alpha,
-            dcm_bc_n,
-        }
-    }
-}
+use filters::{FilterError, Navigator, Sample, Settings, Status};
+use nalgebra::Vector3;
+use numerics::spd;
 
 fn settings(filter: &str, run: u64) -> Settings {
     let filter = FILTERS.iter().position(|f| f.name == filter).unwrap();
-    Settings { filter, run, ..Settings::default() }
+    Settings {
+        filter,
+        run,
+        ..Settings::default()
+    }
 }
 
 fn nees(nav: &Navigator, truth: &State) -> f64 {
@@ -105,9 +34,18 @@ fn every_filter_keeps_its_covariance_positive_and_follows_the_target() {
         assert_eq!(nav.status(), Status::Initialising);
         for k in 1..=900 {
             nav.process(&world.step(), &start).unwrap();
-            assert!(spd::cholesky(&nav.estimate().p_target).is_some(), "{} at {k} s", entry.name);
+            assert!(
+                spd::cholesky(&nav.estimate().p_target).is_some(),
+                "{} at {k} s",
+                entry.name
+            );
         }
-        assert_eq!((nav.status(), nav.estimate().count), (Status::Tracking, 900), "{}", entry.name);
+        assert_eq!(
+            (nav.status(), nav.estimate().count),
+            (Status::Tracking, 900),
+            "{}",
+            entry.name
+        );
         let miss = (nav.estimate().x - world.x).fixed_rows::<3>(0).norm();
         let sigma = nav.estimate().sigma.fixed_rows::<3>(0).norm();
         assert!(miss < 5.0 * sigma, "{}: {miss} m against sigma {sigma} m", entry.name);
@@ -133,7 +71,10 @@ fn fixed_q_is_consistent_in_its_own_world() {
     }
     // Chi-square with 9 and 3 degrees of freedom: three standard errors of the mean.
     let (nees, nis) = (nees_sum / runs as f64, nis_sum / samples);
-    assert!((nees - 1.0).abs() < 3.0 * (2.0 / 9.0 / runs as f64).sqrt(), "NEES {nees}");
+    assert!(
+        (nees - 1.0).abs() < 3.0 * (2.0 / 9.0 / runs as f64).sqrt(),
+        "NEES {nees}"
+    );
     assert!((nis - 1.0).abs() < 3.0 * (2.0_f64 / 3.0 / samples).sqrt(), "NIS {nis}");
 }
 
@@ -152,7 +93,12 @@ fn a_saved_filter_goes_on_bit_for_bit() {
             nav.process(&sample, &start).unwrap();
             restored.process(&sample, &start).unwrap();
         }
-        assert_eq!(postcard::to_allocvec(&nav).unwrap(), postcard::to_allocvec(&restored).unwrap(), "{}", entry.name);
+        assert_eq!(
+            postcard::to_allocvec(&nav).unwrap(),
+            postcard::to_allocvec(&restored).unwrap(),
+            "{}",
+            entry.name
+        );
     }
 }
 
@@ -177,7 +123,11 @@ fn dropouts_coast_and_gaps_are_bridged() {
             assert_eq!(nav.status() == Status::Coasting, k % 7 == 0, "{} at {k} s", entry.name);
         }
         let miss = (nav.estimate().x - world.x).fixed_rows::<3>(0).norm();
-        assert!(miss < 5.0 * nav.estimate().sigma.fixed_rows::<3>(0).norm(), "{}: {miss} m", entry.name);
+        assert!(
+            miss < 5.0 * nav.estimate().sigma.fixed_rows::<3>(0).norm(),
+            "{}: {miss} m",
+            entry.name
+        );
     }
 }
 
@@ -189,7 +139,9 @@ fn a_filter_that_is_led_astray_says_so() {
         let mut sample = world.step();
         if k > 300 {
             // A second target that runs away faster than the filter can believe.
-            sample.lidar = sample.lidar.map(|z| z + Vector3::new(0.5 * f64::from(k - 300).powi(2), 0.0, 0.0));
+            sample.lidar = sample
+                .lidar
+                .map(|z| z + Vector3::new(0.5 * f64::from(k - 300).powi(2), 0.0, 0.0));
         }
         nav.process(&sample, &start).unwrap();
     }
@@ -198,26 +150,52 @@ fn a_filter_that_is_led_astray_says_so() {
 
 #[test]
 fn senseless_samples_are_refused_by_name() {
-    let fresh = || (Navigator::new(&settings("fixed_q", 0), 0.0).unwrap(), OwnWorld::new(0, 1e-6));
+    let fresh = || {
+        (
+            Navigator::new(&settings("fixed_q", 0), 0.0).unwrap(),
+            OwnWorld::new(0, 1e-6),
+        )
+    };
     let (mut nav, (mut world, start)) = fresh();
-    assert!(matches!(nav.process(&world.step(), &State::zeros()), Err(FilterError::NoInitialEstimate { .. })));
+    assert!(matches!(
+        nav.process(&world.step(), &State::zeros()),
+        Err(FilterError::NoInitialEstimate { .. })
+    ));
 
     let (mut nav, _) = fresh();
     let mut sample = world.step();
     sample.time = 0.0;
-    assert!(matches!(nav.process(&sample, &start), Err(FilterError::TimeNotAdvancing { .. })));
+    assert!(matches!(
+        nav.process(&sample, &start),
+        Err(FilterError::TimeNotAdvancing { .. })
+    ));
     sample.time = 1e9;
-    assert!(matches!(nav.process(&sample, &start), Err(FilterError::GapTooLong { .. })));
+    assert!(matches!(
+        nav.process(&sample, &start),
+        Err(FilterError::GapTooLong { .. })
+    ));
     sample.time = 1.0;
     sample.dcm_bc_n[(0, 0)] += 0.1;
-    assert!(matches!(nav.process(&sample, &start), Err(FilterError::NotARotation { .. })));
+    assert!(matches!(
+        nav.process(&sample, &start),
+        Err(FilterError::NotARotation { .. })
+    ));
 
     // An estimate that puts the target beside the boresight axis: the angles have no partials there.
     let (mut nav, _) = fresh();
     let mut at_target = start;
     at_target.fixed_rows_mut::<9>(0).fill(0.0);
-    let error = nav.process(&Sample { time: 1e-3, ..world.step() }, &at_target);
-    assert!(matches!(error, Err(FilterError::LineOfSightUndefined { .. })), "{error:?}");
+    let error = nav.process(
+        &Sample {
+            time: 1e-3,
+            ..world.step()
+        },
+        &at_target,
+    );
+    assert!(
+        matches!(error, Err(FilterError::LineOfSightUndefined { .. })),
+        "{error:?}"
+    );
 }
 
 #[test]
@@ -230,7 +208,9 @@ fn parameters_out_of_range_are_refused_by_name() {
         ("p0.sigma_position", |s| s.beliefs.p0_sigma_position = 0.0),
         ("chaser.q_c", |s| s.beliefs.chaser_q_c = -2.0),
         ("gravity.mu", |s| s.beliefs.gravity_mu = 0.0),
-        ("fixed_q.s", |s| *s.tunable_mut("fixed_q", "s").unwrap() = Value::Real(0.0)),
+        ("fixed_q.s", |s| {
+            *s.tunable_mut("fixed_q", "s").unwrap() = Value::Real(0.0)
+        }),
     ];
     for (name, change) in cases {
         let mut chosen = settings("fixed_q", 0);
@@ -240,8 +220,16 @@ fn parameters_out_of_range_are_refused_by_name() {
             other => panic!("{name}: {other:?}"),
         }
     }
-    let unknown = Settings { filter: 99, ..Settings::default() };
-    assert!(Navigator::new(&unknown, 0.0).unwrap_err().to_string().contains("fixed_q, milton"));
+    let unknown = Settings {
+        filter: 99,
+        ..Settings::default()
+    };
+    assert!(
+        Navigator::new(&unknown, 0.0)
+            .unwrap_err()
+            .to_string()
+            .contains("fixed_q, milton")
+    );
 }
 
 #[test]

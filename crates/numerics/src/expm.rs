@@ -15,7 +15,11 @@ pub fn expm<const N: usize>(a: &SMatrix<f64, N, N>) -> SMatrix<f64, N, N> {
         return SMatrix::repeat(f64::NAN);
     }
     // A norm of 2 costs a few more terms and saves the squarings of the usual dt = 1 s.
-    let squarings = if norm > 2.0 { (norm / 2.0).log2().ceil() as i32 } else { 0 };
+    let squarings = if norm > 2.0 {
+        (norm / 2.0).log2().ceil() as i32
+    } else {
+        0
+    };
     let scaled = a * 2.0_f64.powi(-squarings);
     let mut sum = SMatrix::<f64, N, N>::identity();
     let mut term = sum;

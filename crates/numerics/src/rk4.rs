@@ -44,7 +44,9 @@ mod tests {
     #[test]
     fn time_reaches_the_right_hand_side() {
         // dx/dt = 4 t^3 is integrated exactly by an order-four rule.
-        let x = step(1.0, &nalgebra::Vector1::new(1.0), 0.5, |t, _| nalgebra::Vector1::new(4.0 * t.powi(3)));
+        let x = step(1.0, &nalgebra::Vector1::new(1.0), 0.5, |t, _| {
+            nalgebra::Vector1::new(4.0 * t.powi(3))
+        });
         assert!((x[0] - 1.5_f64.powi(4)).abs() < 1e-14);
     }
 }

@@ -66,7 +66,10 @@ mod tests {
         for seed in 0..20 {
             for run in 0..20 {
                 for source in [Source::Lidar, Source::Dropout, Source::InitialError] {
-                    assert!(seen.insert(first(seed, run, source)), "collision at {seed}, {run}, {source:?}");
+                    assert!(
+                        seen.insert(first(seed, run, source)),
+                        "collision at {seed}, {run}, {source:?}"
+                    );
                 }
             }
         }

@@ -14,17 +14,32 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     tunables: &[Tunable {
         name: "s",
         about: "square root of the jerk density, one number for all axes",
-        kind: Kind::Real { start: Some(1e-5), unit: "m/s^2.5", bound: Bound::Positive },
+        kind: Kind::Real {
+            start: Some(1e-5),
+            unit: "m/s^2.5",
+            bound: Bound::Positive,
+        },
     }],
     presets: &[
-        Preset { name: "paper", about: "s = 1e-5 m/s^2.5", sets: &[("s", "1e-5")] },
-        Preset { name: "small", about: "s = 1e-6 m/s^2.5, about the size of the vents", sets: &[("s", "1e-6")] },
+        Preset {
+            name: "paper",
+            about: "s = 1e-5 m/s^2.5",
+            sets: &[("s", "1e-5")],
+        },
+        Preset {
+            name: "small",
+            about: "s = 1e-6 m/s^2.5, about the size of the vents",
+            sets: &[("s", "1e-6")],
+        },
     ],
     build,
 };
 
 fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
-    Ok(FixedQ { s: setup.tunables.real("s")? / setup.units.root_jerk_density() }.into())
+    Ok(FixedQ {
+        s: setup.tunables.real("s")? / setup.units.root_jerk_density(),
+    }
+    .into())
 }
 
 /// Constant jerk density.

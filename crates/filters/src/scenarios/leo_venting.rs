@@ -25,11 +25,17 @@ pub(super) const ENTRY: ScenarioEntry = ScenarioEntry {
 };
 
 fn gravity(beliefs: &Beliefs) -> Result<Gravity, FilterError> {
-    for (name, value, unit) in
-        [("gravity.mu", beliefs.gravity_mu, "m3/s2"), ("gravity.radius", beliefs.gravity_radius, "m")]
-    {
+    for (name, value, unit) in [
+        ("gravity.mu", beliefs.gravity_mu, "m3/s2"),
+        ("gravity.radius", beliefs.gravity_radius, "m"),
+    ] {
         if value <= 0.0 {
-            return Err(FilterError::OutOfRange { name: name.into(), value, unit, permitted: "greater than 0" });
+            return Err(FilterError::OutOfRange {
+                name: name.into(),
+                value,
+                unit,
+                permitted: "greater than 0",
+            });
         }
     }
     let [j2, j3, j4] = beliefs.gravity_j;

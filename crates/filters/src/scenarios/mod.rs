@@ -30,6 +30,9 @@ impl ScenarioEntry {
             return Ok(value);
         }
         let own = self.defaults.iter().find(|(n, _)| *n == name);
-        own.map(|(_, v)| *v).ok_or(FilterError::NoScenarioDefault { name: name.into(), scenario: self.name })
+        own.map(|(_, v)| *v).ok_or(FilterError::NoScenarioDefault {
+            name: name.into(),
+            scenario: self.name,
+        })
     }
 }

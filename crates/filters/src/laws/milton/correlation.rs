@@ -97,8 +97,8 @@ fn pseudo_inverse(mut rows: Vec<LidarRows>) -> Option<Vec<Gain>> {
             }
         }
         let rest = rows.iter().map(|q| q.column(j).norm_squared()).sum::<f64>().sqrt();
-        // Below this nothing but rounding is left of the column. The comparison is false for NaN as well.
-        if !(rest > 1e-13 * length) {
+        // Below this nothing but rounding is left of the column.
+        if rest.is_nan() || rest <= 1e-13 * length {
             return None;
         }
         r[(j, j)] = rest;
@@ -132,19 +132,15 @@ fn pseudo_inverse(mut rows: Vec<LidarRows>) -> Option<Vec<Gain>> {
 /// * `residuals`: one for each.
 /// * `b_from`: coefficients of process noise before this step are not needed and left out of `b`.
 /// * returns: the differences, or `None` when a window is singular.
-fn differences(
-    samples: &[Sampled],
-    residuals: &[Vector3<f64>],
-    m_b: usize,
-    b_from: usize,
-) -> Option<Vec<Difference>> {
+fn differences(samples: &[Sampled], residuals: &[Vector3<f64>], m_b: usize, b_from: usize) -> Option<Vec<Difference>> {
     // Least-squares windows start at 0..=m_b+1. Going backwards, each inherits the rows H_l Phi_{l,start} of the one after
     // it times one transition.
     let mut gains = vec![Vec::new(); m_b + 2];
     let mut rows = VecDeque::with_capacity(m_b + 1);
     for start in (0..samples.len()).rev() {
         if start + 1 < samples.len() {
-            rows.iter_mut().for_each(|row: &mut LidarRows| *row *= samples[start + 1].f);
+            rows.iter_mut()
+                .for_each(|row: &mut LidarRows| *row *= samples[start + 1].f);
         }
         rows.push_front(samples[start].h);
         rows.truncate(m_b);
@@ -164,7 +160,10 @@ fn differences(
         for (i, gain) in older.iter().enumerate() {
             a[i] -= gain;
         }
-        let z = a.iter().zip(&residuals[w..]).fold(Target::zeros(), |z, (a, y)| z + a * y);
+        let z = a
+            .iter()
+            .zip(&residuals[w..])
+            .fold(Target::zeros(), |z, (a, y)| z + a * y);
         // What a window makes of an error e at sample j that enters there: sum over l >= j of its gain times
         // H_l Phi_{l,j}. The difference of both windows' answers to nu_j at sample j + 1 is B_w[j]; A holds that
         // difference of gains, but for the older window's first sample, which precedes every nu_j.
@@ -195,7 +194,11 @@ pub fn all_differences(samples: &[Sampled], m_b: usize, open_loop: bool) -> Opti
 }
 
 fn residuals_of(samples: &[Sampled], open_loop: bool) -> Vec<Vector3<f64>> {
-    if open_loop { open_loop_residuals(samples) } else { samples.iter().map(|s| s.residual).collect() }
+    if open_loop {
+        open_loop_residuals(samples)
+    } else {
+        samples.iter().map(|s| s.residual).collect()
+    }
 }
 
 /// The normal equations of Eq. (28) before the square root: c = D q with one column of D for each axis of q.
@@ -216,12 +219,17 @@ pub fn regression(samples: &[Sampled], m_b: usize, r: &Matrix3<f64>, open_loop: 
         .map(|d| {
             let first_step = m_b.max(d.first);
             let steps = d.b.iter().enumerate();
-            steps.map(|(i, b)| through_jerk(b, &jerk::gamma_factor(samples[first_step + i + 1].dt))).collect()
+            steps
+                .map(|(i, b)| through_jerk(b, &jerk::gamma_factor(samples[first_step + i + 1].dt)))
+                .collect()
         })
         .collect();
     let newest = &all[m_b];
     let newest_driven = &driven[m_b];
-    let mut out = Regression { dt_d: Matrix3::zeros(), dt_c: Vector3::zeros() };
+    let mut out = Regression {
+        dt_d: Matrix3::zeros(),
+        dt_c: Vector3::zeros(),
+    };
     for p in 0..=m_b {
         let earlier = &all[m_b - p];
         let mut noise = TargetMatrix::zeros();
@@ -268,7 +276,13 @@ fn through_jerk(b: &TargetMatrix, factor: &Matrix3<f64>) -> TargetMatrix {
 
 /// Inner product of two blocks of Eq. (28): over all entries, or over one triangle where the block is stacked by vech.
 fn inner(a: &TargetMatrix, b: &TargetMatrix, vech: bool) -> f64 {
-    if vech { (0..N_TARGET).map(|j| (j..N_TARGET).map(|i| a[(i, j)] * b[(i, j)]).sum::<f64>()).sum() } else { a.dot(b) }
+    if vech {
+        (0..N_TARGET)
+            .map(|j| (j..N_TARGET).map(|i| a[(i, j)] * b[(i, j)]).sum::<f64>())
+            .sum()
+    } else {
+        a.dot(b)
+    }
 }
 
 #[cfg(test)]
@@ -338,7 +352,11 @@ mod tests {
         let samples = window(&mut stream(1, 0, Source::Lidar));
         for d in all_differences(&samples, M_B, false).unwrap() {
             let expected = z_by_definition(&samples, d.first);
-            assert!((d.z - expected).amax() < 1e-8 * expected.amax().max(1.0), "w = {}", d.first);
+            assert!(
+                (d.z - expected).amax() < 1e-8 * expected.amax().max(1.0),
+                "w = {}",
+                d.first
+            );
         }
     }
 
@@ -370,7 +388,11 @@ mod tests {
                     let answer = z_by_definition(&perturbed, d.first) - z_by_definition(&samples, d.first);
                     let known = l.checked_sub(d.first).and_then(|i| d.a.get(i));
                     let expected = known.map_or_else(Target::zeros, |a| a.column(row).into_owned());
-                    assert!((answer - expected).amax() < 1e-8, "w = {}, sample {l}, row {row}", d.first);
+                    assert!(
+                        (answer - expected).amax() < 1e-8,
+                        "w = {}, sample {l}, row {row}",
+                        d.first
+                    );
                 }
             }
         }
@@ -394,7 +416,11 @@ mod tests {
                     let answer = z_by_definition(&perturbed, d.first) - z_by_definition(&samples, d.first);
                     let known = j.checked_sub(d.first).and_then(|i| d.b.get(i));
                     let expected = known.map_or_else(Target::zeros, |b| b.column(state).into_owned());
-                    assert!((answer - expected).amax() < 1e-7, "w = {}, step {j}, state {state}", d.first);
+                    assert!(
+                        (answer - expected).amax() < 1e-7,
+                        "w = {}, step {j}, state {state}",
+                        d.first
+                    );
                 }
             }
         }
@@ -491,7 +517,10 @@ mod tests {
         blind(&mut samples[M_B + 1]);
         let r = Matrix3::identity();
         let all = all_differences(&samples, M_B, false).unwrap();
-        assert!(all.iter().all(|d| d.a.get(M_B + 1 - d.first).is_none_or(|a| a.amax() < 1e-12)));
+        assert!(
+            all.iter()
+                .all(|d| d.a.get(M_B + 1 - d.first).is_none_or(|a| a.amax() < 1e-12))
+        );
         assert!(regression(&samples, M_B, &r, false).is_some());
         samples.iter_mut().skip(3).take(3).for_each(blind);
         assert_eq!(regression(&samples, M_B, &r, false), None);
@@ -510,7 +539,8 @@ mod tests {
         }
         let f = expm(&(a * dt));
         let mut h = LidarRows::zeros();
-        h.fixed_view_mut::<3, 3>(0, 0).copy_from(&Matrix3::new(1.0, 0.2, 0.0, -0.1, 0.8, 0.3, 0.0, 0.1, 1.2));
+        h.fixed_view_mut::<3, 3>(0, 0)
+            .copy_from(&Matrix3::new(1.0, 0.2, 0.0, -0.1, 0.8, 0.3, 0.0, 0.1, 1.2));
         let r = Matrix3::identity() * (sigma * sigma);
         let q_filter = jerk::process_noise(&(q_true * 9.0), dt);
         let draw = numerics::spd::cholesky(&jerk::process_noise(&q_true, dt)).unwrap();
@@ -528,7 +558,13 @@ mod tests {
                     let correction = gain * residual;
                     e -= correction;
                     p -= gain * h * p;
-                    samples.push(Sampled { dt, f, h, residual, correction });
+                    samples.push(Sampled {
+                        dt,
+                        f,
+                        h,
+                        residual,
+                        correction,
+                    });
                     if samples.len() == 2 * m_b + 1 {
                         let found = regression(&samples, m_b, &r, open_loop).unwrap();
                         dt_d += found.dt_d;
@@ -549,10 +585,22 @@ mod tests {
     fn open_loop_residuals_recover_the_density_and_innovations_do_not() {
         let (ratio, error) = recovered_density(true);
         for axis in 0..3 {
-            assert!((ratio[axis] - 1.0).abs() < 3.5 * error[axis], "axis {axis}: {} +- {}", ratio[axis], error[axis]);
-            assert!(error[axis] < 0.1, "axis {axis}: too few samples to tell, {}", error[axis]);
+            assert!(
+                (ratio[axis] - 1.0).abs() < 3.5 * error[axis],
+                "axis {axis}: {} +- {}",
+                ratio[axis],
+                error[axis]
+            );
+            assert!(
+                error[axis] < 0.1,
+                "axis {axis}: too few samples to tell, {}",
+                error[axis]
+            );
         }
         let (ratio, error) = recovered_density(false);
-        assert!((0..3).all(|i| (ratio[i] - 1.0).abs() > 5.0 * error[i]), "innovations: {ratio} +- {error}");
+        assert!(
+            (0..3).all(|i| (ratio[i] - 1.0).abs() > 5.0 * error[i]),
+            "innovations: {ratio} +- {error}"
+        );
     }
 }

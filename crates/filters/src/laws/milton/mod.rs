@@ -35,17 +35,27 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         Tunable {
             name: "m_b",
             about: "samples in the adaptation buffer",
-            kind: Kind::Integer { start: 30, min: SHORTEST_BUFFER, max: 1000 },
+            kind: Kind::Integer {
+                start: 30,
+                min: SHORTEST_BUFFER,
+                max: 1000,
+            },
         },
         Tunable {
             name: "residuals",
             about: "the filter's own innovations (printed) or open-loop residuals (consistent)",
-            kind: Kind::Choice { type_name: READING_TYPE, items: READINGS },
+            kind: Kind::Choice {
+                type_name: READING_TYPE,
+                items: READINGS,
+            },
         },
         Tunable {
             name: "linearisation",
             about: "Eq. (28) as printed, or about the predicted s (consistent)",
-            kind: Kind::Choice { type_name: READING_TYPE, items: READINGS },
+            kind: Kind::Choice {
+                type_name: READING_TYPE,
+                items: READINGS,
+            },
         },
         Tunable {
             name: "whiten",
@@ -55,26 +65,46 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         Tunable {
             name: "r_w",
             about: "measurement noise of the adaptation, R_w = r_w I, in the units the law adapts in",
-            kind: Kind::Real { start: None, unit: "", bound: Bound::Positive },
+            kind: Kind::Real {
+                start: None,
+                unit: "",
+                bound: Bound::Positive,
+            },
         },
         Tunable {
             name: "q_w",
             about: "process noise of the adaptation per update, Q_w = q_w I, in the units the law adapts in",
-            kind: Kind::Real { start: None, unit: "", bound: Bound::Positive },
+            kind: Kind::Real {
+                start: None,
+                unit: "",
+                bound: Bound::Positive,
+            },
         },
         Tunable {
             name: "psi0",
             about: "initial variance of s, Psi_0 = psi0 I, in the units the law adapts in",
-            kind: Kind::Real { start: None, unit: "", bound: Bound::Positive },
+            kind: Kind::Real {
+                start: None,
+                unit: "",
+                bound: Bound::Positive,
+            },
         },
         Tunable {
             name: "s0",
             about: "mean of the random start of s, all axes",
-            kind: Kind::Real { start: None, unit: "m/s^2.5", bound: Bound::NonNegative },
+            kind: Kind::Real {
+                start: None,
+                unit: "m/s^2.5",
+                bound: Bound::NonNegative,
+            },
         },
     ],
     presets: &[
-        Preset { name: "paper", about: "as printed, tuned as in Sec. IV", sets: &[] },
+        Preset {
+            name: "paper",
+            about: "as printed, tuned as in Sec. IV",
+            sets: &[],
+        },
         Preset {
             name: "consistent",
             about: "open-loop residuals and the linearisation that the derivation implies, tuned as in Sec. IV",
@@ -100,7 +130,11 @@ fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
         open_loop: t.choice("residuals")? == 1,
         about_prediction: t.choice("linearisation")? == 1,
         r: if whiten { Matrix3::identity() } else { setup.r },
-        row_scale: if whiten { root.map(|sigma| 1.0 / sigma) } else { Vector3::repeat(1.0) },
+        row_scale: if whiten {
+            root.map(|sigma| 1.0 / sigma)
+        } else {
+            Vector3::repeat(1.0)
+        },
         r_w: t.real("r_w")?,
         q_w: t.real("q_w")?,
         s,
@@ -134,10 +168,15 @@ pub struct Milton {
 impl Milton {
     /// Eq. (29) with the regression c = D q, q = s * s.
     fn learn(&mut self, regression: &Regression) -> Result<(), FilterError> {
-        let failed = FilterError::InformationNotSpd { law: "milton", update: self.updates + 1 };
+        let failed = FilterError::InformationNotSpd {
+            law: "milton",
+            update: self.updates + 1,
+        };
         // Lambda- = (I - Lambda (Lambda + Q_w^-1)^-1) Lambda. A random walk leaves s where it is, so d- = Lambda- s.
         let sum = self.information + Matrix3::identity() / self.q_w;
-        let Some(l) = spd::cholesky(&sum) else { return Err(failed) };
+        let Some(l) = spd::cholesky(&sum) else {
+            return Err(failed);
+        };
         let solved = Matrix3::from_fn(|i, j| spd::cholesky_solve(&l, &self.information.column(j).into_owned())[i]);
         let prior = spd::symmetrised(&(self.information - self.information * solved));
         // D_hat = D diag(2 s), Eq. (28).
@@ -149,7 +188,9 @@ impl Milton {
         };
         let posterior = prior + spd::symmetrised(&(slope * regression.dt_d * slope)) / self.r_w;
         let d = prior * self.s + slope * fed / self.r_w;
-        let Some(l) = spd::cholesky(&posterior) else { return Err(failed) };
+        let Some(l) = spd::cholesky(&posterior) else {
+            return Err(failed);
+        };
         self.s = spd::cholesky_solve(&l, &d);
         self.information = posterior;
         self.updates += 1;
