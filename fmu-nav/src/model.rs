@@ -55,7 +55,7 @@ impl Model for NavModel {
             model_identifier: "fmu_nav",
             description: "Relative navigation filters of a chaser that approaches a venting target",
             version: env!("CARGO_PKG_VERSION"),
-            license: "MIT OR Apache-2.0",
+            license: "MIT",
             default_stop: SCENARIOS.first().map_or(1.0, |s| s.duration),
             default_step: 1.0,
             vendor_annotations: vec![VendorAnnotation {
