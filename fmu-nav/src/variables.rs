@@ -280,7 +280,10 @@ fn tunable_row(t: &mut Builder, filter: &str, tunable: &Tunable, f: usize, i: us
     match tunable.kind {
         Kind::Real { start, unit, bound } => {
             let (get, set) = stored!(f, i, Real, 0.0);
-            let mut row = t.real(name).parameter().unit(unit).about(tunable.about);
+            let mut row = t.real(name).parameter().about(tunable.about);
+            if !unit.is_empty() {
+                row = row.unit(unit);
+            }
             row = match bound {
                 Bound::Positive => row.positive(),
                 Bound::NonNegative => row.min(0.0),
