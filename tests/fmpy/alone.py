@@ -10,13 +10,14 @@ from fmpy import read_model_description, simulate_fmu
 
 def main(path, outputs):
     experiment = read_model_description(path).defaultExperiment
-    result = simulate_fmu(path, output=outputs, validate=True, fmi_call_logger=None)
-    rows = int(float(experiment.stopTime) / float(experiment.stepSize)) + 1
+    step = float(experiment.stepSize)
+    result = simulate_fmu(path, output=outputs, validate=True, step_size=step, output_interval=step)
+    rows = round(float(experiment.stopTime) / step) + 1
     if len(result) != rows:
         print(f"{path}: {len(result)} rows, expected {rows}")
         return 1
     for name in outputs:
-        print(f"{name} {result[name][-1]!r}")
+        print(f"{name} {result[name][-1].item()!r}")
     return 0
 
 

@@ -1,0 +1,61 @@
+//! What the end-to-end tests share: the packed FMUs, the harness's program, and a way to say that a test was skipped.
+
+#![allow(dead_code)] // each test binary uses its own part
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+use trade_harness::pack;
+
+/// The workspace.
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Path of `fmu-truth` or `fmu-nav`, built and packed once for each test binary.
+pub fn fmu(name: &str) -> PathBuf {
+    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+    let folder = FOLDER.get_or_init(|| {
+        let folder = pack::default_folder(root());
+        pack::pack(root(), &folder, true).unwrap();
+        folder
+    });
+    pack::fmu_path(folder, name)
+}
+
+/// Runs the harness's program, built once for each test binary, on FMUs that are packed already.
+pub fn harness(arguments: &[&str]) -> Output {
+    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+    let program = PROGRAM.get_or_init(|| {
+        fmu("fmu-nav");
+        let built = Command::new(env!("CARGO"))
+            .args(["build", "--release", "--quiet", "--package", "trade-harness", "--message-format", "json"])
+            .current_dir(root())
+            .output()
+            .unwrap();
+        assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+        let text = String::from_utf8(built.stdout).unwrap();
+        let artifacts = text.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap());
+        let mut programs = artifacts.filter_map(|a| a["executable"].as_str().map(PathBuf::from));
+        programs.next_back().unwrap()
+    });
+    Command::new(program).args(arguments).args(["--no-build", "--quiet"]).current_dir(root()).output().unwrap()
+}
+
+/// Like [`harness`], for a call that must succeed; returns what it printed.
+pub fn harness_ok(arguments: &[&str]) -> String {
+    let output = harness(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Says on the terminal, past the test runner's capture, that a test could not run and what it lacks.
+pub fn skipped(test: &str, package: &str) {
+    let _ = writeln!(std::io::stderr(), "SKIPPED {test}: needs the system package {package}");
+}
+
+/// A CSV file as rows of columns by name.
+pub fn read_csv(path: &Path) -> Vec<std::collections::HashMap<String, String>> {
+    csv::Reader::from_path(path).unwrap().deserialize().map(Result::unwrap).collect()
+}

@@ -1,0 +1,124 @@
+//! The FMUs through a third party's eyes: FMPy validates them, simulates each alone and couples them.
+//!
+//! The scripts stand in `tests/fmpy`. FMPy goes into a virtual environment of its own under `target`, made by the first
+//! test that needs it from `tests/fmpy/requirements.txt`.
+
+mod common;
+
+use common::{fmu, harness_ok, read_csv, root, skipped};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+
+/// Python of the virtual environment; `None` when this system has no Python to make one with.
+fn python() -> Option<&'static Path> {
+    static PYTHON: OnceLock<Option<PathBuf>> = OnceLock::new();
+    PYTHON
+        .get_or_init(|| {
+            let environment = root().join("target/fmpy");
+            let python = environment.join("bin/python");
+            let requirements = root().join("tests/fmpy/requirements.txt");
+            let installed = environment.join("requirements.txt");
+            if std::fs::read(&installed).ok() == std::fs::read(&requirements).ok() {
+                return Some(python);
+            }
+            let made = Command::new("python3").args(["-m", "venv", "--clear"]).arg(&environment).output();
+            if !made.is_ok_and(|output| output.status.success()) {
+                return None;
+            }
+            let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--requirement"];
+            let output = Command::new(&python).args(pip).arg(&requirements).output().unwrap();
+            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+            std::fs::copy(&requirements, &installed).unwrap();
+            Some(python)
+        })
+        .as_deref()
+}
+
+/// Runs a script of `tests/fmpy`; returns what it printed, or `None` when it was skipped.
+fn script(test: &str, name: &str, arguments: &[&str]) -> Option<String> {
+    let Some(python) = python() else {
+        skipped(test, "python3-venv");
+        return None;
+    };
+    let output = Command::new(python).arg(root().join("tests/fmpy").join(name)).args(arguments).output().unwrap();
+    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{name} {arguments:?}:\n{out}\n{err}");
+    Some(out.into_owned())
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+#[test]
+fn fmpy_finds_nothing_to_say_about_either_fmu() {
+    let (truth, nav) = (fmu("fmu-truth"), fmu("fmu-nav"));
+    if let Some(out) = script("validate", "validate.py", &[text(&truth), text(&nav)]) {
+        assert_eq!(out.lines().count(), 2, "{out}");
+    }
+}
+
+#[test]
+fn fmpy_simulates_each_fmu_alone() {
+    let truth = script("truth alone", "alone.py", &[text(&fmu("fmu-truth")), "sample_count", "truth.r_tc_n[1]"]);
+    if let Some(out) = truth {
+        let values: Vec<(&str, f64)> = out
+            .lines()
+            .filter_map(|line| line.split_once(' '))
+            .map(|(name, value)| (name, value.parse().unwrap()))
+            .collect();
+        assert_eq!(values[0], ("sample_count", 5680.0));
+        // The run ends at the rendezvous: r_tc = -[1, 1, 1] m.
+        assert!((values[1].1 + 1.0).abs() < 1e-4, "{out}");
+    }
+    // Without a world the filter waits for its first sample, without complaint.
+    if let Some(out) = script("nav alone", "alone.py", &[text(&fmu("fmu-nav")), "est.count", "status"]) {
+        assert_eq!(out.lines().collect::<Vec<_>>(), ["est.count 0", "status 1"]);
+    }
+}
+
+/// Another master, another language, either scheme and several communication steps: the same bits for each sample.
+#[test]
+fn fmpy_couples_them_to_the_same_bits_as_the_harness() {
+    let folder = tempfile::tempdir().unwrap();
+    let reference = folder.path().join("harness.csv");
+    let chosen = ["--filters", "milton", "--run", "3", "--seed", "7"];
+    harness_ok(&[&["replay", "--out", text(&reference)], &chosen[..]].concat());
+    let reference = read_csv(&reference);
+    assert_eq!(reference.len(), 5680);
+    let (truth, nav) = (fmu("fmu-truth"), fmu("fmu-nav"));
+    for (scheme, step, stop) in [
+        ("gauss-seidel", "1", "5680"),
+        ("gauss-seidel", "0.25", "700"),
+        ("gauss-seidel", "0.1", "400"),
+        ("jacobi", "1", "700"),
+        ("jacobi", "0.25", "400"),
+    ] {
+        let out = folder.path().join(format!("{scheme}-{step}.csv"));
+        let fmus = ["--truth", text(&truth), "--nav", text(&nav), "--out", text(&out)];
+        let how = ["--scheme", scheme, "--step", step, "--stop", stop, "--filter", "milton", "--run", "3", "--seed", "7"];
+        if script("coupling", "couple.py", &[&fmus[..], &how[..]].concat()).is_none() {
+            return;
+        }
+        let rows = read_csv(&out);
+        // A master that hands over one step late sees the last sample only after the end.
+        let late = usize::from(scheme == "jacobi");
+        assert_eq!(rows.len(), stop.parse::<usize>().unwrap() - late, "{scheme} {step}");
+        for (row, expected) in rows.iter().zip(&reference) {
+            assert_eq!(row["est.count"], expected["sample"]);
+            for (theirs, ours, unit) in [
+                ("est.r_tc_n", "est_pos", "m"),
+                ("est.v_tc_n", "est_vel", "m_s"),
+                ("est.a_t_n", "est_acc", "m_s2"),
+                ("est.b_c_bc", "est_bias", "m_s2"),
+            ] {
+                for (i, axis) in ["x", "y", "z"].iter().enumerate() {
+                    let theirs: f64 = row[&format!("{theirs}[{}]", i + 1)].parse().unwrap();
+                    let ours: f64 = expected[&format!("{ours}_{axis}_{unit}")].parse().unwrap();
+                    assert_eq!(theirs.to_bits(), ours.to_bits(), "{scheme} {step}: sample {}", row["est.count"]);
+                }
+            }
+        }
+    }
+}
