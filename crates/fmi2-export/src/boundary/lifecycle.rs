@@ -1,0 +1,184 @@
+//! Inquiry, logging, creation, initialization, end.
+
+use std::ffi::{CStr, c_char, c_int};
+use std::ptr;
+
+use fmi2_abi::{
+    FMI_VERSION, Fmi2Boolean, Fmi2CallbackFunctions, Fmi2Component, Fmi2Real, Fmi2Status, Fmi2String, Fmi2Type,
+    RawStatus, TYPES_PLATFORM,
+};
+
+use super::handle::Handle;
+use super::{call, memory};
+use crate::description::{braced, guid};
+use crate::error::CallError;
+use crate::guard::guarded;
+use crate::instance::Instance;
+use crate::log::{Logger, Sink};
+use crate::model::{Experiment, Model};
+use crate::order;
+
+pub fn get_types_platform() -> *const c_char {
+    TYPES_PLATFORM.as_ptr()
+}
+
+pub fn get_version() -> *const c_char {
+    FMI_VERSION.as_ptr()
+}
+
+pub unsafe fn set_debug_logging<M: Model>(
+    component: Fmi2Component,
+    logging_on: Fmi2Boolean,
+    count: usize,
+    categories: *const Fmi2String,
+) -> RawStatus {
+    // SAFETY: `categories` has `count` strings; see the module.
+    unsafe {
+        call::<M>(component, &order::SET_DEBUG_LOGGING, |instance| {
+            let categories = memory::array("categories", categories, count)?
+                .iter()
+                .map(|category| memory::text("categories", *category))
+                .collect::<Result<Vec<_>, _>>()?;
+            instance.set_debug_logging(logging_on != 0, &categories)
+        })
+    }
+}
+
+/// Answers null for a wrong GUID, an interface other than co-simulation, an empty name, or a faulty definition, and says which to
+/// the logger. Resource location and visibility are not used.
+pub unsafe fn instantiate<M: Model>(
+    name: Fmi2String,
+    fmu_type: c_int,
+    guid: Fmi2String,
+    _resource_location: Fmi2String,
+    functions: *const Fmi2CallbackFunctions,
+    _visible: Fmi2Boolean,
+    logging_on: Fmi2Boolean,
+) -> Fmi2Component {
+    if functions.is_null() || !functions.is_aligned() {
+        return ptr::null_mut(); // nobody to tell
+    }
+    // SAFETY: not null, aligned, and the host vouches for what it points to.
+    let functions = unsafe { *functions };
+    let spoken_name = if name.is_null() {
+        c""
+    } else {
+        // SAFETY: not null, and the host vouches for the terminating NUL.
+        unsafe { CStr::from_ptr(name) }
+    };
+    let sink = Sink::new(&functions, spoken_name);
+    let created = guarded(|| {
+        // SAFETY: `name` and `guid` are strings; see the module.
+        let (name, guid) = unsafe { (memory::text("instanceName", name), memory::text("fmuGUID", guid)) };
+        let created = create::<M>(name, fmu_type, guid, logging_on != 0, &sink);
+        created.map_err(|error| error.chain())
+    });
+    let (status, reason) = match created {
+        Ok(Ok(handle)) => return Box::into_raw(handle).cast(),
+        Ok(Err(reason)) => (Fmi2Status::Error, reason),
+        Err(panic) => (Fmi2Status::Fatal, panic),
+    };
+    let message = format!("{}: {reason}", order::INSTANTIATE.name);
+    sink.explain(status, &message);
+    ptr::null_mut()
+}
+
+fn create<M: Model>(
+    name: Result<&str, CallError>,
+    fmu_type: c_int,
+    given: Result<&str, CallError>,
+    logging_on: bool,
+    sink: &Sink,
+) -> Result<Box<Handle<M>>, CallError> {
+    if name?.is_empty() {
+        return Err(CallError::EmptyName);
+    }
+    match Fmi2Type::from_raw(fmu_type) {
+        Some(Fmi2Type::CoSimulation) => {}
+        Some(Fmi2Type::ModelExchange) => return Err(CallError::CoSimulationOnly),
+        None => return Err(CallError::UnknownType { raw: fmu_type }),
+    }
+    let guid = guid::<M>()?;
+    let (given, own) = (given?, braced(guid));
+    if given != own {
+        return Err(CallError::WrongGuid {
+            given: given.to_owned(),
+            own,
+        });
+    }
+    let instance = Instance::new(Logger::new(sink.clone(), logging_on));
+    Ok(Box::new(Handle::new(guid, sink.clone(), instance)))
+}
+
+/// Frees the instance in whatever phase it is. Null is fine.
+pub unsafe fn free_instance<M: Model>(component: Fmi2Component) {
+    // SAFETY: `component` is null or an instance; see the module.
+    let Ok(Some(handle)) = guarded(|| unsafe { Handle::<M>::recognise(component) }) else {
+        return;
+    };
+    let Some(claim) = handle.claim(&order::FREE_INSTANCE) else {
+        return;
+    };
+    handle.retire();
+    let sink = handle.sink.clone();
+    drop(claim);
+    // SAFETY: the box was made by `instantiate` and is given up here: `handle` and `claim` are not used any more.
+    let freed = guarded(|| drop(unsafe { Box::from_raw(component.cast::<Handle<M>>()) }));
+    if let Err(panic) = freed {
+        let message = format!("{}: {panic}", order::FREE_INSTANCE.name);
+        sink.explain(Fmi2Status::Fatal, &message);
+    }
+}
+
+pub unsafe fn setup_experiment<M: Model>(
+    component: Fmi2Component,
+    tolerance_defined: Fmi2Boolean,
+    tolerance: Fmi2Real,
+    start_time: Fmi2Real,
+    stop_time_defined: Fmi2Boolean,
+    stop_time: Fmi2Real,
+) -> RawStatus {
+    let experiment = Experiment {
+        start_time,
+        stop_time: (stop_time_defined != 0).then_some(stop_time),
+        tolerance: (tolerance_defined != 0).then_some(tolerance),
+    };
+    // SAFETY: see the module.
+    unsafe {
+        call::<M>(component, &order::SETUP_EXPERIMENT, |instance| {
+            instance.setup_experiment(experiment)
+        })
+    }
+}
+
+pub unsafe fn enter_initialization_mode<M: Model>(component: Fmi2Component) -> RawStatus {
+    // SAFETY: see the module.
+    unsafe {
+        call::<M>(
+            component,
+            &order::ENTER_INITIALIZATION_MODE,
+            Instance::enter_initialization_mode,
+        )
+    }
+}
+
+pub unsafe fn exit_initialization_mode<M: Model>(component: Fmi2Component) -> RawStatus {
+    // SAFETY: see the module.
+    unsafe {
+        call::<M>(
+            component,
+            &order::EXIT_INITIALIZATION_MODE,
+            Instance::exit_initialization_mode,
+        )
+    }
+}
+
+pub unsafe fn terminate<M: Model>(component: Fmi2Component) -> RawStatus {
+    // SAFETY: see the module.
+    unsafe { call::<M>(component, &order::TERMINATE, Instance::terminate) }
+}
+
+pub unsafe fn reset<M: Model>(component: Fmi2Component) -> RawStatus {
+    // SAFETY: see the module.
+    unsafe { call::<M>(component, &order::RESET, Instance::reset) }
+}

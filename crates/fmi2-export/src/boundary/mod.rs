@@ -1,0 +1,57 @@
+//! The C functions, generic over the model; [`export_fmu!`](crate::export_fmu) forwards to them under their C names.
+//!
+//! Every function here is `unsafe` for one and the same reason: it trusts the host to keep its side of the FMI standard. That is,
+//! a component is null or came from `fmi2Instantiate` of this FMU and has not been freed; an array has the number of elements that
+//! is said; a string ends in NUL; none of that memory is used by anyone else during the call. What can be checked is checked: null
+//! and misaligned pointers, and handles that were freed or belong to another FMU, as far as reading them tells.
+#![allow(
+    unsafe_code,
+    reason = "the C boundary: raw pointers come in, slices and references go on"
+)]
+#![allow(
+    clippy::missing_safety_doc,
+    reason = "the contract is the same for all functions and stands in the header"
+)]
+#![allow(missing_docs, reason = "each function is that of the standard with the same name")]
+
+mod handle;
+mod lifecycle;
+mod memory;
+mod model_exchange;
+mod states;
+mod steps;
+mod values;
+
+use fmi2_abi::{Fmi2Component, Fmi2Status, RawStatus};
+
+use crate::guard::guarded;
+use crate::instance::{Answer, Instance};
+use crate::model::Model;
+use crate::order::Function;
+use handle::Handle;
+
+pub use lifecycle::*;
+pub use model_exchange::*;
+pub use states::*;
+pub use steps::*;
+pub use values::*;
+
+/// Runs `body` on the instance behind `component`. Without a recognisable instance there is no logger to tell, and the answer is
+/// `fmi2Error`.
+///
+/// # Safety
+/// See the module.
+unsafe fn call<M: Model>(
+    component: Fmi2Component,
+    function: &Function,
+    body: impl FnOnce(&mut Instance<M>) -> Answer,
+) -> RawStatus {
+    // SAFETY: `component` is null or an instance, as the caller vouches.
+    let Ok(Some(handle)) = guarded(|| unsafe { Handle::<M>::recognise(component) }) else {
+        return Fmi2Status::Error.raw();
+    };
+    match handle.claim(function) {
+        Some(mut instance) => instance.run(function, body).raw(),
+        None => Fmi2Status::Error.raw(),
+    }
+}

@@ -1,0 +1,123 @@
+//! The whole state of an instance, and the bytes it is saved as.
+
+use serde::{Deserialize, Serialize};
+use uuid::Uuid;
+
+use crate::description::braced;
+use crate::error::CallError;
+use crate::model::{Experiment, Model};
+use crate::order::Phase;
+
+/// All that later calls depend on, except for the logging settings.
+#[derive(Clone, Serialize, Deserialize)]
+pub(crate) struct Snapshot<M> {
+    pub(crate) phase: Phase,
+    /// End of the last step, s; before the first one the start time.
+    pub(crate) time: f64,
+    pub(crate) experiment: Experiment,
+    /// A variable was set in initialization mode since the model initialised.
+    pub(crate) stale: bool,
+    pub(crate) model: M,
+}
+
+impl<M: Model> Snapshot<M> {
+    /// A new instance with the start column applied.
+    pub(crate) fn start() -> Self {
+        let mut model = M::blank();
+        M::table().apply_start(&mut model);
+        Self {
+            phase: Phase::Instantiated,
+            time: 0.0,
+            experiment: Experiment::default(),
+            stale: false,
+            model,
+        }
+    }
+
+    /// The bytes of this state, for the FMU with `guid`.
+    pub(crate) fn to_bytes(&self, guid: Uuid) -> Result<Vec<u8>, CallError> {
+        let payload = postcard::to_stdvec(self)?;
+        let mut bytes = Vec::with_capacity(PAYLOAD + payload.len() + CHECKSUM);
+        bytes.extend(MAGIC);
+        bytes.extend(FORMAT.to_le_bytes());
+        bytes.extend(guid.into_bytes());
+        bytes.extend((payload.len() as u64).to_le_bytes());
+        bytes.extend(payload);
+        let checksum = fnv1a(&bytes);
+        bytes.extend(checksum.to_le_bytes());
+        Ok(bytes)
+    }
+
+    /// The state in `bytes`, if the FMU with `guid` wrote them and nothing happened to them since.
+    pub(crate) fn from_bytes(bytes: &[u8], guid: Uuid) -> Result<Self, CallError> {
+        let mut rest = bytes;
+        if take(&mut rest) != Some(MAGIC) {
+            return Err(CallError::NotAState);
+        }
+        let truncated = |expected: usize| CallError::StateLength {
+            expected: expected as u64,
+            given: bytes.len(),
+        };
+        let header = || truncated(PAYLOAD + CHECKSUM);
+        let format = u32::from_le_bytes(take(&mut rest).ok_or_else(header)?);
+        if format != FORMAT {
+            return Err(CallError::StateFormat {
+                found: format,
+                known: FORMAT,
+            });
+        }
+        let found = Uuid::from_bytes(take(&mut rest).ok_or_else(header)?);
+        if found != guid {
+            return Err(CallError::StateOfOtherFmu {
+                found: braced(found),
+                own: braced(guid),
+            });
+        }
+        let length = u64::from_le_bytes(take(&mut rest).ok_or_else(header)?);
+        let expected = length.saturating_add((PAYLOAD + CHECKSUM) as u64);
+        if expected != bytes.len() as u64 {
+            return Err(CallError::StateLength {
+                expected,
+                given: bytes.len(),
+            });
+        }
+        let (checked, checksum) = bytes.split_last_chunk().ok_or_else(|| truncated(CHECKSUM))?;
+        if fnv1a(checked) != u64::from_le_bytes(*checksum) {
+            return Err(CallError::StateChecksum);
+        }
+        Ok(postcard::from_bytes(&checked[PAYLOAD..])?)
+    }
+}
+
+const MAGIC: [u8; 8] = *b"FMU2CSst";
+/// Raised whenever the layout of [`Snapshot`] or of the bytes around it changes.
+const FORMAT: u32 = 1;
+/// Where the payload begins: after magic, format, GUID and length.
+const PAYLOAD: usize = 8 + 4 + 16 + 8;
+const CHECKSUM: usize = 8;
+
+fn take<const N: usize>(rest: &mut &[u8]) -> Option<[u8; N]> {
+    let (head, tail) = rest.split_first_chunk()?;
+    *rest = tail;
+    Some(*head)
+}
+
+/// 64-bit FNV-1a: each step is a bijection of the hash, so no single changed byte goes unnoticed.
+fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fnv1a;
+
+    /// Test vectors of the FNV authors.
+    #[test]
+    fn fnv1a_agrees_with_published_vectors() {
+        assert_eq!(fnv1a(b""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(fnv1a(b"a"), 0xaf63_dc4c_8601_ec8c);
+        assert_eq!(fnv1a(b"foobar"), 0x8594_4171_f739_67e8);
+    }
+}

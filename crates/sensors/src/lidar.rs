@@ -1,0 +1,115 @@
+//! Flash LiDAR: range and two angles to the target.
+//!
+//! Axes L of the sensor: z_L along the boresight; azimuth turns towards x_L, elevation towards y_L
+//! (`astro::frames::lidar_from_body` places them in the body).
+
+use nalgebra::{Matrix3, Vector3};
+
+/// Half of the 5 degree field of view (Mamich and Zanetti, Sec. IV), rad.
+pub const HALF_FIELD_OF_VIEW: f64 = 2.5 * std::f64::consts::PI / 180.0;
+
+/// Range, azimuth and elevation of a target.
+///
+/// * `rho_l`: target relative to the sensor, axes L, m.
+/// * returns: range, m; azimuth and elevation, rad. An angle is NaN when both its components are zero.
+///
+/// Source: Mamich and Zanetti, Eqs. (8) and (9).
+pub fn measure(rho_l: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(rho_l.norm(), (rho_l.x / rho_l.z).atan(), (rho_l.y / rho_l.z).atan())
+}
+
+/// Derivative of [`measure`] by the relative position in axes N.
+///
+/// * `r_tc_n`: target relative to chaser, N, m, with a component along the boresight.
+/// * `dcm_l_n`: maps N to L.
+/// * returns: rows range, azimuth, elevation; columns `r_tc_n`; 1 and rad/m.
+///
+/// Source: Mamich and Zanetti, the first three columns of H_1 in Eq. (11).
+pub fn jacobian(r_tc_n: &Vector3<f64>, dcm_l_n: &Matrix3<f64>) -> Matrix3<f64> {
+    let rho = dcm_l_n * r_tc_n;
+    let (x, y, z) = (rho.x, rho.y, rho.z);
+    let azimuth = Vector3::new(z, 0.0, -x).transpose() / (x * x + z * z);
+    let elevation = Vector3::new(0.0, z, -y).transpose() / (y * y + z * z);
+    Matrix3::from_rows(&[r_tc_n.transpose() / rho.norm(), azimuth * dcm_l_n, elevation * dcm_l_n])
+}
+
+/// Covariance of the measurement noise.
+///
+/// * `sigma_range`: m; `sigma_angle`: rad, for both angles.
+/// * returns: diagonal 3x3, m2 and rad2, rows as in [`measure`].
+///
+/// Source: Mamich and Zanetti, R_1 in Eq. (30).
+pub fn covariance(sigma_range: f64, sigma_angle: f64) -> Matrix3<f64> {
+    Matrix3::from_diagonal(&Vector3::new(sigma_range, sigma_angle, sigma_angle).map(|sigma| sigma * sigma))
+}
+
+/// Whether a target lies in the square field of view in front of the sensor.
+///
+/// * `rho_l`: target relative to the sensor, axes L, m.
+pub fn in_view(rho_l: &Vector3<f64>) -> bool {
+    let reach = rho_l.z * HALF_FIELD_OF_VIEW.tan();
+    rho_l.z > 0.0 && rho_l.x.abs() <= reach && rho_l.y.abs() <= reach
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use astro::frames;
+    use proptest::prelude::*;
+
+    #[test]
+    fn angles_by_hand() {
+        // Boresight along z: 45 degrees towards x, half a slope towards y.
+        let z = measure(&Vector3::new(2.0, 1.0, 2.0));
+        let expected = Vector3::new(3.0, std::f64::consts::FRAC_PI_4, 0.463_647_609_000_806_1);
+        assert!((z - expected).amax() < 1e-15, "{z}");
+    }
+
+    #[test]
+    fn covariance_squares_each_channel() {
+        let r = covariance(0.5, 0.25);
+        assert!((r - Matrix3::from_diagonal(&Vector3::new(0.25, 0.0625, 0.0625))).amax() < 1e-16);
+    }
+
+    #[test]
+    fn view_is_a_square_in_front() {
+        let at = |x_deg: f64, y_deg: f64, z: f64| {
+            in_view(&Vector3::new(
+                x_deg.to_radians().tan() * z,
+                y_deg.to_radians().tan() * z,
+                z,
+            ))
+        };
+        assert!(at(0.0, 0.0, 10.0) && at(2.49, -2.49, 10.0));
+        assert!(!at(2.51, 0.0, 10.0) && !at(0.0, -2.51, 10.0));
+        assert!(!at(0.0, 0.0, -10.0), "behind the sensor");
+        assert!(!in_view(&Vector3::zeros()) && !in_view(&Vector3::repeat(f64::NAN)));
+    }
+
+    proptest! {
+        #[test]
+        fn jacobian_is_the_derivative(
+            r in [10.0..3e3_f64, -200.0..200.0_f64, -200.0..200.0_f64],
+            look in [10.0..3e3_f64, -200.0..200.0_f64, -200.0..200.0_f64],
+            v in [-1.0..1.0_f64, 0.1..1.0_f64, -1.0..1.0_f64],
+        ) {
+            let r = Vector3::from(r);
+            // The sensor looks somewhere near the target, not at it.
+            let dcm = frames::lidar_from_body() * frames::los_body_axes(&look.into(), &v.into(), &Vector3::z());
+            prop_assume!((dcm * r).z > 0.3 * r.norm());
+            let jacobian = jacobian(&r, &dcm);
+            let h = 1e-3 * r.norm();
+            for i in 0..3 {
+                let along = |d: f64| {
+                    let mut moved = r;
+                    moved[i] += d;
+                    measure(&(dcm * moved))
+                };
+                let slope = (along(h) - along(-h)) * (2.0 / (3.0 * h)) - (along(2.0 * h) - along(-2.0 * h)) / (12.0 * h);
+                // Truncation (h/r)^4 = 1e-12 with factors up to (1/0.3)^5, relative to the row's scale.
+                let error = jacobian.column(i) - slope;
+                prop_assert!(error[0].abs() < 1e-8 && error.amax() * r.norm() < 1e-6, "{} and {}", jacobian, slope);
+            }
+        }
+    }
+}

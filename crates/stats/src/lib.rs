@@ -1,0 +1,20 @@
+//! Statistics of a Monte Carlo study of estimators: errors over the ensemble of runs, filter consistency, paired comparison.
+//!
+//! Everything here is a pure function or an accumulator that is fed run by run; sums are taken in the order of the
+//! calls, so equal calls give equal bytes. Nothing here knows about frames, files, FMI or threads.
+//!
+//! Start reading at [`Ensemble`] (Eqs. (31)-(33) of Mamich and Zanetti), then [`nees`] and [`ScalarEnsemble`].
+
+mod consistency;
+mod ensemble;
+mod error;
+mod histogram;
+mod paired;
+mod scalar;
+
+pub use consistency::{Bounds, mean_chi_square_bounds, nees};
+pub use ensemble::{Ensemble, EpochMoments, mean_error_in_sigmas};
+pub use error::StatsError;
+pub use histogram::LogHistogram;
+pub use paired::{PairedDifference, paired_difference};
+pub use scalar::ScalarEnsemble;

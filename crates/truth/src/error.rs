@@ -1,0 +1,71 @@
+//! What can go wrong in the simulated world.
+
+use thiserror::Error;
+
+/// A world that cannot be built or cannot go on.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum TruthError {
+    /// A parameter is outside its range.
+    #[error("{name} is {value}: it must be {allowed}")]
+    Parameter {
+        /// Name of the FMI variable.
+        name: String,
+        /// Value given, in the variable's unit.
+        value: f64,
+        /// What would be accepted.
+        allowed: String,
+    },
+    /// The ordinal names no scenario.
+    #[error("scenario {ordinal} does not exist: it must be one of {known}")]
+    Scenario {
+        /// Ordinal given; the first scenario is 1.
+        ordinal: i32,
+        /// Ordinals and names of the scenarios there are.
+        known: String,
+    },
+    /// The start time is NaN or infinite.
+    #[error("the start time is {start_time} s: it must be a finite number")]
+    StartTime {
+        /// Start time given, s.
+        start_time: f64,
+    },
+    /// An acceleration input is NaN or infinite.
+    #[error("input {name}[{axis}] is {value} m/s2 at {t} s: it must be a finite number")]
+    Input {
+        /// Name of the vector.
+        name: &'static str,
+        /// Axis, from 1.
+        axis: usize,
+        /// Value given, m/s2.
+        value: f64,
+        /// Time of the communication point, s.
+        t: f64,
+    },
+    /// The next communication point lies before the present one, or is not a number.
+    #[error("the world stands at {now} s and cannot go to {asked} s: a step must end later than it begins")]
+    Backwards {
+        /// Present time, s.
+        now: f64,
+        /// Time asked for, s.
+        asked: f64,
+    },
+    /// The next communication point lies absurdly far ahead.
+    #[error("a step from {now} s to {asked} s is too long: at most {limit} s are simulated in one step")]
+    TooFar {
+        /// Present time, s.
+        now: f64,
+        /// Time asked for, s.
+        asked: f64,
+        /// Longest step, s.
+        limit: f64,
+    },
+    /// The motion has left the numbers.
+    #[error("the state of the vehicles is no longer finite at {t} s: the accelerations acting on them are too large")]
+    StateNotFinite {
+        /// End of the grid interval in which it happened, s.
+        t: f64,
+    },
+    /// A world's fixed orbit is no orbit.
+    #[error(transparent)]
+    Orbit(#[from] astro::AstroError),
+}

@@ -1,0 +1,3 @@
+//! One file per world.
+
+pub(crate) mod leo_venting;

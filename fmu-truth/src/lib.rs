@@ -1,0 +1,23 @@
+//! The simulated world of `crates/truth` as an FMI 2.0 co-simulation slave.
+//!
+//! `variables.rs` is the table of everything a master can see, `model.rs` the adapter between that table and a
+//! [`truth::Simulation`]. Behaviour belongs in `truth`, the C interface in `fmi2-export`; here stands neither.
+
+mod model;
+mod variables;
+
+use model::TruthModel;
+
+fmi2_export::export_fmu!(TruthModel);
+
+#[cfg(test)]
+mod tests {
+    use super::TruthModel;
+    use std::path::Path;
+
+    #[test]
+    fn model_description_is_the_committed_one() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../modelDescription/fmu-truth/modelDescription.xml");
+        fmi2_export::golden_check::<TruthModel>(&path).unwrap();
+    }
+}
