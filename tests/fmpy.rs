@@ -3,6 +3,8 @@
 //! The scripts stand in `tests/fmpy`. FMPy goes into a virtual environment of its own under `target`, made by the first
 //! test that needs it from `tests/fmpy/requirements.txt`.
 
+#![allow(clippy::unwrap_used)] // helpers included: what fails there is a failed test
+
 mod common;
 
 use common::{fmu, harness_ok, read_csv, root, skipped};
