@@ -3,7 +3,7 @@
 //! The scripts stand in `tests/fmpy`. FMPy goes into a virtual environment of its own under `target`, made by the first
 //! test that needs it from `tests/fmpy/requirements.txt`.
 
-#![allow(clippy::unwrap_used)] // helpers included: what fails there is a failed test
+#![allow(clippy::unwrap_used, reason = "what fails in a helper is a failed test")]
 
 mod common;
 

@@ -1,7 +1,7 @@
 //! What the end-to-end tests share: the packed FMUs, the harness's program, and a way to say that a test was skipped.
 
-#![allow(dead_code)] // each test binary uses its own part
-#![allow(clippy::unwrap_used)] // a helper that fails is a test that fails
+#![allow(dead_code, reason = "each test binary uses its own part")]
+#![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

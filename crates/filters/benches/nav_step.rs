@@ -3,7 +3,7 @@
 //! `cargo bench -p filters` prints the time of one step, averaged over the same ten minutes of samples for each filter,
 //! so that the cost of MILTON's rare updates is spread over the steps between them, as in use.
 
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::expect_used, reason = "a bench that cannot run should stop")]
 
 #[path = "../tests/common/mod.rs"]
 mod common;

@@ -1,6 +1,8 @@
 //! What every registered filter must do, in a world made of the filter's own assumptions: gravity of the filter, a
 //! target driven by white jerk, sensors with exactly the noise that the filter expects.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+
 mod common;
 
 use common::OwnWorld;

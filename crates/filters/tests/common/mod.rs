@@ -1,5 +1,8 @@
 //! A world made of the filter's own assumptions, for tests and benches.
 
+#![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
+#![allow(missing_docs, reason = "part of test binaries")]
+
 use filters::ekf::{Dynamics, InitialSigma, Thrust};
 use filters::state::State;
 use filters::{Gravity, Sample, jerk};
