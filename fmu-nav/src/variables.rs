@@ -406,8 +406,8 @@ fn outputs(t: &mut Builder) {
         .get(|m| m.read(|n| n.estimate().count));
     t.integer("est.dimension")
         .output()
-        .about("states with a covariance: relative position, velocity and acceleration")
-        .get(|_| filters::state::N_TARGET as i32);
+        .about("states with a covariance: relative position and velocity, and acceleration where it is estimated")
+        .get(|m| m.read(|n| n.dimension() as i32));
     let names = [
         "est.r_tc_n",
         "est.v_tc_n",

@@ -22,6 +22,8 @@ pub struct Gaussian {
 pub struct Dynamics {
     /// Gravity of both vehicles.
     pub gravity: Gravity,
+    /// Inverse time constant of the target's unmodelled acceleration; zero for a random walk.
+    pub acceleration_decay: f64,
     /// Inverse time constant of the accelerometer bias.
     pub beta: f64,
     /// White acceleration density of the chaser.
@@ -49,24 +51,19 @@ impl Dynamics {
     /// Mean after `dt`: both vehicles by one Runge-Kutta step of Eq. (4), with g of the chaser in its row 5 and no
     /// "v_c dt" term in the mean.
     pub fn propagate_mean(&self, x: &State, dt: f64, thrust: Option<&Thrust>) -> State {
-        let a_t = part(x, idx::A_T);
         let mut inertial = *x;
         let (r_c, v_c) = (part(x, idx::R_C), part(x, idx::V_C));
         inertial.fixed_rows_mut::<3>(0).copy_from(&(part(x, idx::R_TC) + r_c));
         inertial.fixed_rows_mut::<3>(3).copy_from(&(part(x, idx::V_TC) + v_c));
         let end = rk4::step(0.0, &inertial, dt, |_, y| {
-            let (r_t, v_t, r_c, v_c, b) = (
-                part(y, 0..3),
-                part(y, 3..6),
-                part(y, idx::R_C),
-                part(y, idx::V_C),
-                part(y, idx::B_C),
-            );
+            let (r_t, v_t, a_t) = (part(y, 0..3), part(y, 3..6), part(y, idx::A_T));
+            let (r_c, v_c, b) = (part(y, idx::R_C), part(y, idx::V_C), part(y, idx::B_C));
             let drive = thrust.map_or_else(Vector3::zeros, |t| t.dcm_n_bc * (t.alpha_c_bc - b));
             let mut dy = State::zeros();
             dy.fixed_rows_mut::<3>(0).copy_from(&v_t);
             dy.fixed_rows_mut::<3>(3)
                 .copy_from(&(self.gravity.acceleration(&r_t, &v_t) + a_t));
+            dy.fixed_rows_mut::<3>(6).copy_from(&(a_t * -self.acceleration_decay));
             dy.fixed_rows_mut::<3>(9).copy_from(&v_c);
             dy.fixed_rows_mut::<3>(12)
                 .copy_from(&(self.gravity.acceleration(&r_c, &v_c) + drive));
@@ -98,7 +95,7 @@ impl Dynamics {
             a.fixed_view_mut::<3, 3>(6, 6).fill_diagonal(-third_decay);
             expm(&(a * dt))
         };
-        let target = vehicle(&r_t, &v_t, Matrix3::identity(), 0.0);
+        let target = vehicle(&r_t, &v_t, Matrix3::identity(), self.acceleration_decay);
         let drive = thrust.map_or_else(Matrix3::zeros, |t| -t.dcm_n_bc);
         let chaser = vehicle(&r_c, &v_c, drive, self.beta);
         let mut f = StateMatrix::zeros();
@@ -260,6 +257,7 @@ mod tests {
     fn leo() -> (Dynamics, State) {
         let dynamics = Dynamics {
             gravity: Gravity::Zonal(astro::earth::FILTER),
+            acceleration_decay: 1e-2,
             beta: 1.0 / 3600.0,
             q_c: 1e-12,
             q_coupled: true,

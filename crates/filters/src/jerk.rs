@@ -1,4 +1,4 @@
-//! Process noise of a random jerk.
+//! Process noise of the target's three states per axis: r, v, a driven by white jerk or white acceleration.
 
 use crate::state::TargetMatrix;
 use nalgebra::{Matrix3, Vector3};
@@ -47,33 +47,111 @@ pub fn process_noise(q_psd: &Vector3<f64>, dt: f64) -> TargetMatrix {
     })
 }
 
+/// One 3x3 block of (r, v, a) covariance, the same on every axis.
+fn on_every_axis(block: &Matrix3<f64>) -> TargetMatrix {
+    TargetMatrix::from_fn(|i, j| if i % 3 == j % 3 { block[(i / 3, j / 3)] } else { 0.0 })
+}
+
+/// Discrete process noise of white acceleration of density `q` (m2/s3 in SI) on every axis, 9x9; rows of a are zero.
+pub fn white_acceleration(q: f64, dt: f64) -> TargetMatrix {
+    let d2 = dt * dt / 2.0;
+    on_every_axis(&(Matrix3::new(dt.powi(3) / 3.0, d2, 0.0, d2, dt, 0.0, 0.0, 0.0, 0.0) * q))
+}
+
+/// Discrete process noise of an acceleration da/dt = -beta a + w, w white of density `q`, on every axis, 9x9.
+///
+/// The closed forms lose all digits for small beta dt; the integral of F(t) L q L^T F(t)^T is therefore summed by
+/// Gauss-Legendre points, which is exact to rounding for beta dt below about one.
+///
+/// * `q`: density of the driving jerk, m2/s5 in SI; `beta`: decay rate; `dt`: interval.
+pub fn gauss_markov(q: f64, beta: f64, dt: f64) -> TargetMatrix {
+    // Nodes and weights of the eight-point rule on [-1, 1], positive half.
+    const POINTS: [(f64, f64); 4] = [
+        (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+        (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+        (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+        (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+    ];
+    let mut block = Matrix3::zeros();
+    for (node, weight) in POINTS.iter().flat_map(|(x, w)| [(-x, *w), (*x, *w)]) {
+        let t = dt * (1.0 + node) / 2.0;
+        // Answer of (r, v, a) to a unit impulse of jerk a time t ago, by its series: beta t is small.
+        let x = beta * t;
+        let answer = Vector3::new(t * t * psi(x, 2), t * psi(x, 1), (-x).exp());
+        block += answer * answer.transpose() * (weight * dt / 2.0 * q);
+    }
+    on_every_axis(&block)
+}
+
+/// psi_1 = (1 - e^-x) / x and psi_2 = (x - 1 + e^-x) / x^2, accurate near zero.
+fn psi(x: f64, order: i32) -> f64 {
+    if x > 0.5 {
+        return if order == 1 {
+            -(-x).exp_m1() / x
+        } else {
+            (x + (-x).exp_m1()) / (x * x)
+        };
+    }
+    // sum over k of (-x)^k / (k + order)!
+    let mut term = if order == 1 { 1.0 } else { 0.5 };
+    let mut sum = 0.0;
+    for k in 1..20 {
+        sum += term;
+        term *= -x / f64::from(k + order);
+    }
+    sum
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use nalgebra::SMatrix;
 
     /// Van Loan's construction: exp([[-A, L q L^T], [0, A^T]] dt) holds F^T and F^-1 Q_hat.
+    ///
+    /// * `decay`: of the acceleration; `driven`: slot of the block (0 r, 1 v, 2 a) that white noise drives.
+    fn van_loan(q: &Vector3<f64>, decay: f64, driven: usize, with_acceleration: bool, dt: f64) -> TargetMatrix {
+        let mut a = TargetMatrix::zeros();
+        for i in 0..if with_acceleration { 6 } else { 3 } {
+            a[(i, i + 3)] = 1.0;
+        }
+        let mut lq = TargetMatrix::zeros();
+        for i in 0..3 {
+            a[(6 + i, 6 + i)] = -decay;
+            lq[(3 * driven + i, 3 * driven + i)] = q[i];
+        }
+        let mut m = SMatrix::<f64, 18, 18>::zeros();
+        m.fixed_view_mut::<9, 9>(0, 0).copy_from(&(-a * dt));
+        m.fixed_view_mut::<9, 9>(0, 9).copy_from(&(lq * dt));
+        m.fixed_view_mut::<9, 9>(9, 9).copy_from(&(a.transpose() * dt));
+        let e = numerics::expm(&m);
+        e.fixed_view::<9, 9>(9, 9).transpose() * e.fixed_view::<9, 9>(0, 9)
+    }
+
+    fn agree(ours: &TargetMatrix, expected: &TargetMatrix) -> bool {
+        (ours - expected).amax() < 1e-12 * expected.amax()
+    }
+
     #[test]
     fn process_noise_agrees_with_van_loan() {
         let q = Vector3::new(2.0, 0.5, 3e-4);
+        let one = Vector3::repeat(0.7);
         for dt in [0.25, 1.0, 7.0] {
-            let mut a = TargetMatrix::zeros();
-            let mut lq = TargetMatrix::zeros();
-            for i in 0..6 {
-                a[(i, i + 3)] = 1.0;
+            assert!(
+                agree(&process_noise(&q, dt), &van_loan(&q, 0.0, 2, true, dt)),
+                "dt = {dt}"
+            );
+            assert!(
+                agree(&white_acceleration(0.7, dt), &van_loan(&one, 0.0, 1, false, dt)),
+                "dt = {dt}"
+            );
+            for beta in [0.0, 1e-5, 0.02, 0.14] {
+                let expected = van_loan(&one, beta, 2, true, dt);
+                assert!(
+                    agree(&gauss_markov(0.7, beta, dt), &expected),
+                    "dt = {dt}, beta = {beta}"
+                );
             }
-            for i in 0..3 {
-                lq[(6 + i, 6 + i)] = q[i];
-            }
-            let mut m = SMatrix::<f64, 18, 18>::zeros();
-            m.fixed_view_mut::<9, 9>(0, 0).copy_from(&(-a * dt));
-            m.fixed_view_mut::<9, 9>(0, 9).copy_from(&(lq * dt));
-            m.fixed_view_mut::<9, 9>(9, 9).copy_from(&(a.transpose() * dt));
-            let e = numerics::expm(&m);
-            let f = e.fixed_view::<9, 9>(9, 9).transpose();
-            let expected = f * e.fixed_view::<9, 9>(0, 9);
-            let ours = process_noise(&q, dt);
-            assert!((ours - expected).amax() < 1e-12 * expected.amax(), "dt = {dt}");
         }
     }
 

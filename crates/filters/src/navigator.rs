@@ -3,10 +3,10 @@
 use crate::beliefs::Beliefs;
 use crate::ekf::{self, Dynamics, Measurement, Thrust};
 use crate::error::FilterError;
-use crate::laws::{Adaptation, FILTERS, FilterEntry, Law, Setup, Step};
+use crate::laws::{AccelerationModel, Adaptation, FILTERS, FilterEntry, Law, Setup, Step};
 use crate::sample::Sample;
 use crate::scenarios::{SCENARIOS, ScenarioEntry};
-use crate::state::{LidarRows, N, State, TargetMatrix, idx};
+use crate::state::{LidarRows, N, N_TARGET, State, TargetMatrix, idx};
 use crate::tunable::{Tunables, Value};
 use crate::units::Units;
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3, Vector6};
@@ -211,14 +211,6 @@ impl Navigator {
         let r_acc = positive("r.sigma_accelerometer", b.r_sigma_accelerometer, "m/s2")? / units.acceleration();
         let bias_walk = not_negative("accelerometer.bias_sigma", b.accelerometer_bias_sigma, "m/s2")?;
         let q_c = not_negative("chaser.q_c", own("chaser.q_c", b.chaser_q_c)?, "m2/s3")?;
-        let dynamics = Dynamics {
-            gravity: (scenario.gravity)(b)?,
-            beta: not_negative("accelerometer.beta", b.accelerometer_beta, "1/s")? * units.time,
-            q_c: q_c / (units.velocity().powi(2) / units.time),
-            q_coupled: b.chaser_q_coupled,
-            // A standard deviation per 1 s step, as a variance rate.
-            q_bias: (bias_walk / units.acceleration()).powi(2) * units.time,
-        };
         let initial_p = ekf::InitialSigma {
             position: sigma("p0.sigma_position", b.p0_sigma_position, "m")? / units.length,
             velocity: sigma("p0.sigma_velocity", b.p0_sigma_velocity, "m/s")? / units.velocity(),
@@ -238,6 +230,18 @@ impl Navigator {
             study_seed: settings.study_seed,
             run: settings.run,
         })?;
+        let dynamics = Dynamics {
+            gravity: (scenario.gravity)(b)?,
+            acceleration_decay: match law.acceleration() {
+                AccelerationModel::GaussMarkov(rate) => rate,
+                AccelerationModel::RandomWalk | AccelerationModel::Absent => 0.0,
+            },
+            beta: not_negative("accelerometer.beta", b.accelerometer_beta, "1/s")? * units.time,
+            q_c: q_c / (units.velocity().powi(2) / units.time),
+            q_coupled: b.chaser_q_coupled,
+            // A standard deviation per 1 s step, as a variance rate.
+            q_bias: (bias_walk / units.acceleration()).powi(2) * units.time,
+        };
         Ok(Self {
             units,
             dynamics,
@@ -300,10 +304,7 @@ impl Navigator {
         let mut core = match self.core.take() {
             Some(core) => core,
             None if nav_init.iter().all(|v| *v == 0.0) => return Err(FilterError::NoInitialEstimate { t_s }),
-            None => ekf::Gaussian {
-                x: State::from_fn(|i, _| nav_init[i] / self.units.of_state(i)),
-                p: self.initial_p.covariance(),
-            },
+            None => self.start(nav_init),
         };
 
         let f = self.propagate(&mut core, gap_s);
@@ -328,6 +329,19 @@ impl Navigator {
         self.report(&core, sample);
         self.core = Some(core);
         Ok(())
+    }
+
+    /// The initial estimate as the first sample finds it.
+    fn start(&self, nav_init: &State) -> ekf::Gaussian {
+        let mut core = ekf::Gaussian {
+            x: State::from_fn(|i, _| nav_init[i] / self.units.of_state(i)),
+            p: self.initial_p.covariance(),
+        };
+        if self.law.acceleration() == AccelerationModel::Absent {
+            core.x.fixed_rows_mut::<3>(idx::A_T.start).fill(0.0);
+            idx::A_T.for_each(|i| core.p[(i, i)] = 0.0);
+        }
+        core
     }
 
     /// Time update over a gap, in equal parts.
@@ -472,7 +486,16 @@ impl Navigator {
         self.start_time
     }
 
-    /// Square root of the jerk density in use, axes N, m/s^2.5.
+    /// Number of the target's states that have a covariance: nine, or six without an acceleration state.
+    pub fn dimension(&self) -> usize {
+        if self.law.acceleration() == AccelerationModel::Absent {
+            6
+        } else {
+            N_TARGET
+        }
+    }
+
+    /// Square root of the jerk density in use, axes N, m/s^2.5; zero for a law without one.
     pub fn s(&self) -> Vector3<f64> {
         self.law.s().map(|s| s.abs() * self.units.root_jerk_density())
     }

@@ -4,8 +4,10 @@
 //! makes it appear in the FMU's `filter` enumeration, its tunables in the model description, and itself in
 //! `trade-harness list` and in every test that loops over [`FILTERS`].
 
+mod dmc;
 mod fixed_q;
 pub mod milton;
+mod snc;
 
 use crate::FilterError;
 use crate::state::{LidarRows, Target, TargetMatrix};
@@ -29,8 +31,24 @@ pub struct Step {
     pub correction: Target,
 }
 
+/// What a filter makes of the target's unmodelled acceleration between samples.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum AccelerationModel {
+    /// A state that stays where it is but for the process noise.
+    RandomWalk,
+    /// A state that decays at this rate, internal units.
+    GaussMarkov(f64),
+    /// No state: six states with a covariance, a_t stays zero.
+    Absent,
+}
+
 /// A law plugged into the filter.
 pub trait Adaptation {
+    /// How the acceleration state behaves.
+    fn acceleration(&self) -> AccelerationModel {
+        AccelerationModel::RandomWalk
+    }
+
     /// Discrete process noise of the target's nine states over `dt`, 9x9, internal units.
     fn process_noise(&self, dt: f64) -> TargetMatrix;
 
@@ -112,10 +130,15 @@ macro_rules! registry {
 
 registry! {
     FixedQ => fixed_q::FixedQ, fixed_q::ENTRY;
+    Snc => snc::Snc, snc::ENTRY;
+    Dmc => dmc::Dmc, dmc::ENTRY;
     Milton => milton::Milton, milton::ENTRY;
 }
 
 impl Adaptation for Law {
+    fn acceleration(&self) -> AccelerationModel {
+        self.inner().acceleration()
+    }
     fn process_noise(&self, dt: f64) -> TargetMatrix {
         self.inner().process_noise(dt)
     }

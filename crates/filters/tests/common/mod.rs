@@ -37,6 +37,7 @@ impl OwnWorld {
     pub fn new(run: u64, s: f64) -> (Self, State) {
         let dynamics = Dynamics {
             gravity: Gravity::Zonal(astro::earth::FILTER),
+            acceleration_decay: 0.0,
             beta: 1.0 / 3600.0,
             q_c: 1e-12,
             q_coupled: true,

@@ -1,0 +1,77 @@
+//! Dynamic model compensation: the acceleration state is a first-order Gauss-Markov process.
+
+use super::{AccelerationModel, Adaptation, FilterEntry, Law, Setup, Step};
+use crate::FilterError;
+use crate::jerk;
+use crate::state::TargetMatrix;
+use crate::tunable::{Bound, Kind, Preset, Tunable};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+pub(super) const ENTRY: FilterEntry = FilterEntry {
+    name: "dmc",
+    about: "dynamic model compensation: first-order Gauss-Markov acceleration",
+    tunables: &[
+        Tunable {
+            name: "sigma",
+            about: "steady standard deviation of the acceleration, per axis",
+            kind: Kind::Real {
+                start: None,
+                unit: "m/s2",
+                bound: Bound::Positive,
+            },
+        },
+        Tunable {
+            name: "time_constant",
+            about: "correlation time of the acceleration",
+            kind: Kind::Real {
+                start: None,
+                unit: "s",
+                bound: Bound::Positive,
+            },
+        },
+    ],
+    presets: &[Preset {
+        name: "paper",
+        about: "the scenario's own sigma and correlation time",
+        sets: &[],
+    }],
+    build,
+};
+
+fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
+    let sigma = setup.tunables.real("sigma")? / setup.units.acceleration();
+    let beta = setup.units.time / setup.tunables.real("time_constant")?;
+    Ok(Dmc {
+        s: sigma * (2.0 * beta).sqrt(),
+        beta,
+    }
+    .into())
+}
+
+/// First-order Gauss-Markov acceleration.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Dmc {
+    /// Square root of the density of the white jerk that drives it, internal units.
+    s: f64,
+    /// Decay rate, internal units.
+    beta: f64,
+}
+
+impl Adaptation for Dmc {
+    fn acceleration(&self) -> AccelerationModel {
+        AccelerationModel::GaussMarkov(self.beta)
+    }
+
+    fn process_noise(&self, dt: f64) -> TargetMatrix {
+        jerk::gauss_markov(self.s * self.s, self.beta, dt)
+    }
+
+    fn observe(&mut self, _step: Step) -> Result<(), FilterError> {
+        Ok(())
+    }
+
+    fn s(&self) -> Vector3<f64> {
+        Vector3::repeat(self.s)
+    }
+}

@@ -1,0 +1,62 @@
+//! State noise compensation: no acceleration state, white acceleration of constant density.
+
+use super::{AccelerationModel, Adaptation, FilterEntry, Law, Setup, Step};
+use crate::FilterError;
+use crate::jerk;
+use crate::state::TargetMatrix;
+use crate::tunable::{Bound, Kind, Preset, Tunable};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+pub(super) const ENTRY: FilterEntry = FilterEntry {
+    name: "snc",
+    about: "state noise compensation: constant white-acceleration density, no acceleration state",
+    tunables: &[Tunable {
+        name: "q",
+        about: "square root of the acceleration density, one number for all axes",
+        kind: Kind::Real {
+            start: None,
+            unit: "m/s^1.5",
+            bound: Bound::Positive,
+        },
+    }],
+    presets: &[Preset {
+        name: "paper",
+        about: "the scenario's own q",
+        sets: &[],
+    }],
+    build,
+};
+
+fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
+    let unit = setup.units.velocity() / setup.units.time.sqrt();
+    Ok(Snc {
+        q: setup.tunables.real("q")? / unit,
+    }
+    .into())
+}
+
+/// Constant white-acceleration density.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Snc {
+    /// Square root of the density, internal units.
+    q: f64,
+}
+
+impl Adaptation for Snc {
+    fn acceleration(&self) -> AccelerationModel {
+        AccelerationModel::Absent
+    }
+
+    fn process_noise(&self, dt: f64) -> TargetMatrix {
+        jerk::white_acceleration(self.q * self.q, dt)
+    }
+
+    fn observe(&mut self, _step: Step) -> Result<(), FilterError> {
+        Ok(())
+    }
+
+    fn s(&self) -> Vector3<f64> {
+        Vector3::zeros()
+    }
+}
