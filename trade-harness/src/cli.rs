@@ -1,0 +1,277 @@
+//! What the command line understands.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::models::{Assignment, FilterChoice, ForeignFilter, Mapping};
+use crate::pack;
+
+/// Compares navigation filters in simulated worlds; both are FMI 2.0 FMUs.
+#[derive(Debug, Parser)]
+#[command(name = "trade-harness", version, about, arg_required_else_help = true)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What the harness can do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// List scenarios, filters, presets and tunables
+    List(ListArgs),
+    /// Build our FMUs and pack them as .fmu files
+    Pack(PackArgs),
+    /// Run a Monte Carlo study of several filters in the same worlds
+    Compare(CompareArgs),
+    /// Write one run out, sample by sample
+    Replay(ReplayArgs),
+    /// Show what an FMU is and which variables it has
+    Inspect(InspectArgs),
+}
+
+/// Where our FMUs come from.
+#[derive(Debug, Clone, Args)]
+pub struct BuildArgs {
+    /// Use the .fmu files as they are, without building
+    #[arg(long)]
+    pub no_build: bool,
+    /// Folder of fmu-truth.fmu and fmu-nav.fmu [default: target/fmu of the workspace]
+    #[arg(long, value_name = "DIR")]
+    pub fmu_dir: Option<PathBuf>,
+    /// Workspace to build in
+    #[arg(long, value_name = "DIR", default_value_os_t = pack::home_workspace(), hide_default_value = true)]
+    pub workspace: PathBuf,
+    /// No progress, only results and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Which worlds, which filters, which parameters.
+#[derive(Debug, Clone, Args)]
+pub struct StudyArgs {
+    /// Filters of fmu-nav, each with a preset if it is not 'paper'; empty for none
+    #[arg(
+        long,
+        value_name = "NAME[@PRESET],...",
+        value_delimiter = ',',
+        default_value = "fixed_q,milton,milton@consistent",
+        value_parser = optional_choice
+    )]
+    pub filters: Vec<OptionalChoice>,
+    /// Seed of the study; with the number of a run it selects every random stream
+    #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_parser = clap::value_parser!(i32).range(0..))]
+    pub seed: i32,
+    /// Set a parameter of fmu-truth, fmu-nav or a foreign filter; after the preset, repeatable
+    #[arg(long = "set", value_name = "MODEL.VARIABLE=VALUE")]
+    pub assignments: Vec<Assignment>,
+    /// Communication step, s [default: the truth's sample period]
+    #[arg(long, value_name = "H")]
+    pub step: Option<f64>,
+    /// When values are handed over
+    #[arg(long, value_enum, default_value_t = SchemeChoice::GaussSeidel)]
+    pub scheme: SchemeChoice,
+    /// Foreign FMU in the place of fmu-truth
+    #[arg(long, value_name = "PATH")]
+    pub truth: Option<PathBuf>,
+    /// Add a foreign filter FMU under a label; repeatable
+    #[arg(long = "nav", value_name = "LABEL=PATH")]
+    pub foreign: Vec<ForeignFilter>,
+    /// Tell what a variable of a foreign FMU is called here; repeatable
+    #[arg(long = "map", value_name = "LABEL.THEIR_NAME=OUR_NAME")]
+    pub mappings: Vec<Mapping>,
+    /// Where our FMUs come from.
+    #[command(flatten)]
+    pub build: BuildArgs,
+}
+
+/// An element of `--filters`; `--filters ''` is one that chooses nothing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OptionalChoice(pub Option<FilterChoice>);
+
+fn optional_choice(text: &str) -> Result<OptionalChoice, String> {
+    if text.is_empty() {
+        Ok(OptionalChoice(None))
+    } else {
+        text.parse().map(|c| OptionalChoice(Some(c)))
+    }
+}
+
+/// Order of exchange and stepping.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SchemeChoice {
+    /// Truth first; the filter gets its new sample in the same step
+    GaussSeidel,
+    /// All at once; samples arrive one step later, with the same estimates
+    Jacobi,
+}
+
+impl From<SchemeChoice> for cosim::Scheme {
+    fn from(choice: SchemeChoice) -> Self {
+        match choice {
+            SchemeChoice::GaussSeidel => Self::GaussSeidel,
+            SchemeChoice::Jacobi => Self::Jacobi,
+        }
+    }
+}
+
+/// `list`.
+#[derive(Debug, Args)]
+pub struct ListArgs {
+    /// Where our FMUs come from.
+    #[command(flatten)]
+    pub build: BuildArgs,
+}
+
+/// `pack`.
+#[derive(Debug, Args)]
+pub struct PackArgs {
+    /// Folder to write to [default: target/fmu of the workspace]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Workspace to build in
+    #[arg(long, value_name = "DIR", default_value_os_t = pack::home_workspace(), hide_default_value = true)]
+    pub workspace: PathBuf,
+    /// No progress, only results and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// `compare`.
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    /// Scenarios, one study each
+    #[arg(
+        long = "scenario",
+        value_name = "NAME,...",
+        value_delimiter = ',',
+        default_value = "leo_venting"
+    )]
+    pub scenarios: Vec<String>,
+    /// Runs of each study
+    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=i64::from(i32::MAX)))]
+    pub runs: u32,
+    /// Threads [default: all cores]
+    #[arg(long)]
+    pub jobs: Option<std::num::NonZeroUsize>,
+    /// Folder for the results
+    #[arg(long, value_name = "DIR", default_value = "results/compare")]
+    pub out: PathBuf,
+    /// Text of the 'case' column
+    #[arg(long, value_name = "NAME", default_value = "nominal", value_parser = case_name)]
+    pub case: String,
+    /// End with exit code 1 when the scenario as published misses one of its bounds
+    #[arg(long, conflicts_with_all = ["assignments", "truth"])]
+    pub check: bool,
+    /// Which filters, which parameters.
+    #[command(flatten)]
+    pub study: StudyArgs,
+}
+
+/// The case stands in a file name.
+fn case_name(text: &str) -> Result<String, String> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
+    if !text.is_empty() && text.chars().all(plain) && !text.starts_with('.') {
+        Ok(text.to_owned())
+    } else {
+        Err("use letters, digits, '-', '_' and '.'".to_owned())
+    }
+}
+
+/// `replay`.
+#[derive(Debug, Args)]
+pub struct ReplayArgs {
+    /// Scenario
+    #[arg(long, value_name = "NAME", default_value = "leo_venting")]
+    pub scenario: String,
+    /// Number of the run
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=i64::from(i32::MAX)))]
+    pub run: u32,
+    /// CSV file to write
+    #[arg(long, value_name = "FILE", default_value = "results/replay.csv")]
+    pub out: PathBuf,
+    /// Which filters, which parameters.
+    #[command(flatten)]
+    pub study: StudyArgs,
+}
+
+/// `inspect`.
+#[derive(Debug, Args)]
+pub struct InspectArgs {
+    /// The .fmu file
+    #[arg(value_name = "FMU")]
+    pub path: PathBuf,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    fn compare(arguments: &[&str]) -> Result<CompareArgs, String> {
+        let all = ["trade-harness", "compare"].iter().chain(arguments);
+        match Cli::try_parse_from(all).map_err(|e| e.to_string())?.command {
+            Command::Compare(args) => Ok(args),
+            other => Err(format!("{other:?}")),
+        }
+    }
+
+    #[test]
+    fn the_definition_is_sound() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn defaults_are_those_of_the_manual() {
+        let args = compare(&[]).unwrap();
+        let labels: Vec<_> = args
+            .study
+            .filters
+            .iter()
+            .filter_map(|f| f.0.as_ref())
+            .map(|f| f.label.as_str())
+            .collect();
+        assert_eq!(labels, ["fixed_q", "milton", "milton@consistent"]);
+        assert_eq!((args.runs, args.study.seed, args.case.as_str()), (100, 1, "nominal"));
+        assert_eq!(args.scenarios, ["leo_venting"]);
+        assert_eq!(args.out, PathBuf::from("results/compare"));
+        assert!(args.study.step.is_none() && args.jobs.is_none());
+    }
+
+    #[test]
+    fn a_full_line_is_understood() {
+        let line = "--scenario a,b --filters snc,milton@x --runs 7 --seed 3 --jobs 2 --out o --case c \
+            --set fmu-truth.vent.scale=10 --set other.k=1 --step 0.25 --scheme jacobi --nav other=p.fmu --map other.y=est.r_tc_n";
+        let args = compare(&line.split_whitespace().collect::<Vec<_>>()).unwrap();
+        assert_eq!(args.scenarios, ["a", "b"]);
+        assert_eq!(args.study.assignments.len(), 2);
+        assert_eq!(args.study.scheme, SchemeChoice::Jacobi);
+        assert_eq!(args.study.foreign[0].label, "other");
+        assert_eq!(args.study.mappings[0].own, "y");
+        let none = compare(&["--filters", "", "--nav", "other=p.fmu"]).unwrap();
+        assert!(none.study.filters.iter().all(|f| f.0.is_none()));
+    }
+
+    #[test]
+    fn mistakes_are_told_with_the_option() {
+        for (arguments, expected) in [
+            (&["--runs", "0"][..], "--runs"),
+            (&["--runs", "many"], "--runs"),
+            (&["--seed", "-1"], "--seed"),
+            (&["--seed", "2147483648"], "--seed"),
+            (&["--jobs", "0"], "--jobs"),
+            (&["--filters", "a@"], "NAME@PRESET"),
+            (&["--set", "vent.scale"], "MODEL.VARIABLE=VALUE"),
+            (&["--nav", "x.fmu"], "LABEL=PATH"),
+            (&["--map", "x"], "THEIR_NAME"),
+            (&["--scheme", "newton"], "gauss-seidel"),
+            (&["--case", "a/b"], "letters"),
+            (&["--steps", "1"], "--step"),
+            (&["--check", "--set", "fmu-truth.vent.scale=0"], "--check"),
+        ] {
+            let error = compare(arguments).unwrap_err();
+            assert!(error.contains(expected), "{arguments:?}: {error}");
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! `compare`: the Monte Carlo study.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::{Cast, Verdict, note, say};
+use crate::HarnessError;
+use crate::cli::CompareArgs;
+use crate::output::OutputFolder;
+use crate::report::claims::verdicts;
+use crate::report::manifest::{Environment, Manifest, ModelFacts, StudyFacts, peak_memory_mib};
+use crate::report::runs::Named;
+use crate::report::summary::SummaryRow;
+use crate::report::timing::TimingRow;
+use crate::report::{epochs, runs, summary, table, timing};
+use crate::run::{call_time, rehearse};
+use crate::scenarios;
+use crate::study::{RunRow, Study, StudyResult};
+
+pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+    let worlds = args
+        .scenarios
+        .iter()
+        .map(|name| scenarios::find(name))
+        .collect::<Result<Vec<_>, _>>()?;
+    let folder = OutputFolder::prepare(&args.out)?;
+    let cast = Cast::new(&args.study)?;
+    let jobs = args
+        .jobs
+        .or_else(|| std::thread::available_parallelism().ok())
+        .map_or(1, usize::from);
+    let mut studies = Vec::new();
+    for scenario in worlds {
+        let spec = cast.spec(&args.study, scenario)?;
+        for open in rehearse(&spec)? {
+            note(&format!("note: nothing feeds {open}; it keeps its start value"));
+        }
+        studies.push(Study {
+            spec,
+            runs: args.runs,
+            jobs,
+            case: args.case.clone(),
+        });
+    }
+
+    let mut results = Vec::new();
+    for study in &studies {
+        let progress = Progress::new(study, args.study.build.quiet);
+        let result = study.run(|run, rows| progress.finished(run, rows))?;
+        progress.end();
+        results.push(result);
+    }
+    let report = Report::new(&studies, &results);
+    let files = report.write(&folder, &cast, jobs)?;
+    report.print(args, &files, out)
+}
+
+/// The live line on stderr; hidden where nobody watches.
+struct Progress<'a> {
+    study: &'a Study,
+    bar: ProgressBar,
+}
+
+impl<'a> Progress<'a> {
+    fn new(study: &'a Study, quiet: bool) -> Self {
+        let target = if quiet {
+            ProgressDrawTarget::hidden()
+        } else {
+            ProgressDrawTarget::stderr()
+        };
+        let bar = ProgressBar::with_draw_target(Some(u64::from(study.runs)), target);
+        let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} runs, {eta} left");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        bar.set_message(study.spec.scenario.name);
+        bar.enable_steady_tick(Duration::from_millis(500));
+        Self { study, bar }
+    }
+
+    fn finished(&self, run: u32, rows: &[RunRow]) {
+        for (filter, row) in self.study.spec.filters.iter().zip(rows) {
+            if let Some(failure) = &row.failure {
+                let when = failure.time.map(|t| format!(" at {t} s")).unwrap_or_default();
+                let seed = self.study.spec.seed;
+                let text = format!(
+                    "failed: {} seed {seed} run {run}{when}: {}",
+                    filter.label, failure.message
+                );
+                self.bar.suspend(|| note(&text));
+            }
+        }
+        self.bar.inc(1);
+    }
+
+    fn end(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// All results of the command, ready to be written.
+struct Report<'a> {
+    studies: &'a [Study],
+    results: &'a [StudyResult],
+    rows: Vec<SummaryRow>,
+    timings: Vec<TimingRow>,
+}
+
+impl<'a> Report<'a> {
+    fn new(studies: &'a [Study], results: &'a [StudyResult]) -> Self {
+        let mut rows = Vec::new();
+        let mut timings = Vec::new();
+        for (study, result) in studies.iter().zip(results) {
+            let name = study.spec.scenario.name;
+            for (filter, participant) in result.filters.iter().zip(&study.spec.filters) {
+                rows.push(SummaryRow::new(name, &study.case, filter));
+                let call = call_time(&study.spec, participant).unwrap_or_default();
+                timings.extend(TimingRow::new(name, &filter.label, &study.case, &filter.timing, call));
+            }
+        }
+        Self {
+            studies,
+            results,
+            rows,
+            timings,
+        }
+    }
+
+    /// Writes every file; `manifest.json` last, so that it stands for a complete set.
+    fn write(&self, folder: &OutputFolder, cast: &Cast, jobs: usize) -> Result<Vec<PathBuf>, HarnessError> {
+        let named: Vec<Named<'_>> = self
+            .studies
+            .iter()
+            .zip(self.results)
+            .map(|(study, result)| Named {
+                spec: &study.spec,
+                case: &study.case,
+                filters: &result.filters,
+            })
+            .collect();
+        let mut files = vec![
+            ("summary.csv".to_owned(), summary::render(&self.rows)?),
+            ("paired.csv".to_owned(), runs::render_paired(&named)?),
+            ("runs.csv".to_owned(), runs::render_runs(&named)?),
+            ("failures.csv".to_owned(), runs::render_failures(&named)?),
+            ("timing.csv".to_owned(), timing::render(&self.timings)?),
+        ];
+        for study in &named {
+            for filter in study.filters {
+                let name = format!(
+                    "epochs/{}_{}_{}.csv",
+                    study.spec.scenario.name, filter.label, study.case
+                );
+                files.push((name, epochs::render(study.spec, filter)?));
+            }
+        }
+        let models = || cast.models.all();
+        let path = |path: &std::path::Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        let manifest = Manifest {
+            harness_version: env!("CARGO_PKG_VERSION"),
+            models: models().map(|m| (m.name.clone(), ModelFacts::new(m))).collect(),
+            studies: self.studies.iter().map(StudyFacts::new).collect(),
+            files: files.iter().map(|(name, _)| name.clone()).collect(),
+            environment: Environment::now(
+                jobs,
+                self.results.iter().map(|r| r.wall).sum(),
+                models().map(|m| (m.name.clone(), path(m.fmu.path()).display().to_string())),
+            ),
+        };
+        files.push(("manifest.json".to_owned(), manifest.render()?));
+        files
+            .iter()
+            .map(|(name, contents)| folder.write(name, contents))
+            .collect()
+    }
+
+    fn print(&self, args: &CompareArgs, files: &[PathBuf], out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+        // What a source claims is claimed of its own world, not of a changed one.
+        let as_published = args.study.assignments.is_empty() && args.study.truth.is_none();
+        let mut missed = false;
+        for (study, result) in self.studies.iter().zip(self.results) {
+            let scenario = study.spec.scenario;
+            let rows: Vec<SummaryRow> = self
+                .rows
+                .iter()
+                .filter(|r| r.scenario == scenario.name)
+                .cloned()
+                .collect();
+            let heading = format!(
+                "{}, case {}: {} runs from seed {}, {} to {} s, {:.1} s on {} threads",
+                scenario.name,
+                study.case,
+                study.runs,
+                study.spec.seed,
+                scenario.scored_from,
+                scenario.duration,
+                result.wall.as_secs_f64(),
+                study.jobs
+            );
+            say(
+                out,
+                &format!("{heading}\n{}\n{}", table::render(&rows, &self.timings), table::LEGEND),
+            )?;
+            let verdicts = if as_published {
+                verdicts(scenario, &rows)
+            } else {
+                Vec::new()
+            };
+            if !verdicts.is_empty() {
+                say(
+                    out,
+                    &format!("\n{}\n{}", scenario.reference, table::render_claims(&verdicts)),
+                )?;
+            }
+            missed |= verdicts.iter().any(|v| !v.holds());
+            say(out, "")?;
+        }
+        if let Some(peak) = peak_memory_mib() {
+            say(out, &format!("Memory:  {peak:.0} MiB at most"))?;
+        }
+        let line: Vec<String> = std::env::args().skip(1).collect();
+        say(out, &format!("Command: trade-harness {}", line.join(" ")))?;
+        let shown: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
+        say(out, &format!("Files:   {}", shown.join("\n         ")))?;
+        Ok(if missed && args.check {
+            Verdict::BoundsMissed
+        } else {
+            Verdict::Done
+        })
+    }
+}

@@ -1,0 +1,137 @@
+//! `list`: what can be studied and tuned.
+
+use std::io::Write;
+
+use comfy_table::{ContentArrangement, Table, presets};
+use fmi2_import::{Causality, ModelDescription, Variable};
+
+use super::{Verdict, own_fmus, say};
+use crate::HarnessError;
+use crate::cli::ListArgs;
+use crate::models::{NAV, PAPER, TRUTH};
+use crate::scenarios::SCENARIOS;
+
+pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+    let paths = own_fmus(&args.build, &[TRUTH, NAV])?;
+    let fmus = paths
+        .iter()
+        .map(fmi2_import::Fmu::open)
+        .collect::<Result<Vec<_>, _>>()?;
+    say(out, &scenarios())?;
+    if let [truth, nav] = fmus.as_slice() {
+        let filters = filter_names(nav.description());
+        for filter in &filters {
+            say(out, &describe_filter(nav.description(), filter))?;
+        }
+        let of_a_filter = |v: &Variable| filters.iter().any(|f| prefix(&v.name) == f.as_str());
+        let shared = parameters(nav.description()).filter(|v| !of_a_filter(v));
+        say(
+            out,
+            &format!(
+                "Parameters of every filter (--set {NAV}.NAME=VALUE)\n{}\n",
+                variables(shared)
+            ),
+        )?;
+        let world = parameters(truth.description());
+        say(
+            out,
+            &format!(
+                "Parameters of the world (--set {TRUTH}.NAME=VALUE)\n{}",
+                variables(world)
+            ),
+        )?;
+    }
+    Ok(Verdict::Done)
+}
+
+fn scenarios() -> String {
+    let mut text = "Scenarios\n".to_owned();
+    for s in SCENARIOS {
+        text.push_str(&format!("  {}: {}\n", s.name, s.about));
+        text.push_str(&format!(
+            "    {} s, scored from {} s; {}\n",
+            s.duration, s.scored_from, s.reference
+        ));
+        for b in s.bounds {
+            text.push_str(&format!("    {} {} {}: {}\n", b.filter, b.column, b.range(), b.claim));
+        }
+    }
+    text
+}
+
+fn filter_names(nav: &ModelDescription) -> Vec<String> {
+    let items = nav
+        .get("filter")
+        .and_then(Variable::enumeration_items)
+        .unwrap_or_default();
+    items.iter().map(|i| i.name.clone()).collect()
+}
+
+fn describe_filter(nav: &ModelDescription, filter: &str) -> String {
+    let items = nav
+        .get("filter")
+        .and_then(Variable::enumeration_items)
+        .unwrap_or_default();
+    let about = items
+        .iter()
+        .find(|i| i.name == filter)
+        .and_then(|i| i.description.as_deref());
+    let mut text = format!(
+        "Filter {filter}{}\n",
+        about.map(|a| format!(": {a}")).unwrap_or_default()
+    );
+    if !nav.presets.iter().any(|p| p.filter == filter && p.name == PAPER) {
+        text.push_str(&format!("  {filter} = {filter}@{PAPER}: start values as below\n"));
+    }
+    for preset in nav.presets.iter().filter(|p| p.filter == filter) {
+        text.push_str(&format!("  {filter}@{}: {}\n", preset.name, preset.about));
+        for (name, value) in &preset.sets {
+            text.push_str(&format!("    {name} = {value}\n"));
+        }
+    }
+    let own: Vec<&Variable> = parameters(nav).filter(|v| prefix(&v.name) == filter).collect();
+    if !own.is_empty() {
+        text.push_str(&variables(own.into_iter()));
+        text.push('\n');
+    }
+    text
+}
+
+fn parameters(description: &ModelDescription) -> impl Iterator<Item = &Variable> {
+    description
+        .variables
+        .iter()
+        .filter(|v| v.causality == Causality::Parameter)
+}
+
+fn prefix(name: &str) -> &str {
+    name.split('.').next().unwrap_or(name)
+}
+
+/// A table of names, start values, units and meanings.
+pub(super) fn variables<'a>(list: impl Iterator<Item = &'a Variable>) -> String {
+    let mut table = Table::new();
+    table
+        .load_style(presets::NOTHING)
+        .set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_header(["  name", "start", "unit", "meaning"]);
+    for v in list {
+        let start = v.start().map(|s| v.format_value(&s)).unwrap_or_default();
+        let mut meaning = v.description.clone().unwrap_or_default();
+        if let Some(items) = v.enumeration_items() {
+            let names: Vec<&str> = items.iter().map(|i| i.name.as_str()).collect();
+            meaning.push_str(&format!(" [{}]", names.join(", ")));
+        }
+        table.add_row([
+            format!("  {}", v.name),
+            start,
+            v.unit().unwrap_or_default().to_owned(),
+            meaning,
+        ]);
+    }
+    table
+        .lines()
+        .map(|line| line.trim_end().to_owned())
+        .collect::<Vec<_>>()
+        .join("\n")
+}

@@ -1,0 +1,123 @@
+//! What each command of the command line does.
+
+mod compare;
+mod inspect;
+mod list;
+mod pack;
+mod replay;
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use crate::HarnessError;
+use crate::cli::{BuildArgs, Cli, Command, StudyArgs};
+use crate::models::{FilterChoice, Models, NAV, TRUTH};
+use crate::pack::{default_folder, fmu_path};
+use crate::run::{Spec, chain};
+use crate::scenarios::Scenario;
+
+/// How a command that could do its work ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    Done,
+    BoundsMissed,
+}
+
+/// Runs a command: exit code 0 when done, 1 when bounds were missed, 2 when it could not do its work.
+pub fn execute(cli: Cli) -> ExitCode {
+    let mut out = io::stdout().lock();
+    let result = match cli.command {
+        Command::List(args) => list::list(&args, &mut out),
+        Command::Pack(args) => pack::pack(&args, &mut out),
+        Command::Compare(args) => compare::compare(&args, &mut out),
+        Command::Replay(args) => replay::replay(&args, &mut out),
+        Command::Inspect(args) => inspect::inspect(&args, &mut out),
+    };
+    match result {
+        Ok(Verdict::Done) => ExitCode::SUCCESS,
+        Ok(Verdict::BoundsMissed) => ExitCode::from(1),
+        // Whoever reads our output has seen enough, as in `list | head`.
+        Err(HarnessError::Write { source, .. }) if source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            note(&format!("error: {}", chain(&error)));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// A line on stderr. Nobody can be told when that fails.
+fn note(text: &str) {
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
+/// A line on the output.
+fn say(out: &mut dyn Write, text: &str) -> Result<(), HarnessError> {
+    writeln!(out, "{text}").map_err(|source| HarnessError::Write {
+        path: "the output".into(),
+        source,
+    })
+}
+
+/// Paths of our FMUs that are needed, built and packed unless that is not wanted.
+fn own_fmus(args: &BuildArgs, needed: &[&str]) -> Result<Vec<PathBuf>, HarnessError> {
+    let folder = args.fmu_dir.clone().unwrap_or_else(|| default_folder(&args.workspace));
+    if !args.no_build && !needed.is_empty() {
+        crate::pack::pack(&args.workspace, &folder, args.quiet)?;
+    }
+    let existing = |name: &&str| {
+        let path = fmu_path(&folder, name);
+        if path.is_file() {
+            Ok(path)
+        } else {
+            Err(HarnessError::NoFmu { path })
+        }
+    };
+    needed.iter().map(existing).collect()
+}
+
+/// The FMUs and filters that a study names.
+struct Cast {
+    models: Models,
+    choices: Vec<FilterChoice>,
+}
+
+impl Cast {
+    fn new(args: &StudyArgs) -> Result<Self, HarnessError> {
+        let choices: Vec<FilterChoice> = args.filters.iter().filter_map(|f| f.0.clone()).collect();
+        let mut needed = Vec::new();
+        needed.extend(args.truth.is_none().then_some(TRUTH));
+        needed.extend((!choices.is_empty()).then_some(NAV));
+        let own = own_fmus(&args.build, &needed)?;
+        let path_of = |name: &str| needed.iter().position(|n| *n == name).map(|i| own[i].as_path());
+        let truth = args
+            .truth
+            .as_deref()
+            .or_else(|| path_of(TRUTH))
+            .unwrap_or(Path::new(TRUTH));
+        let models = Models::open(truth, path_of(NAV), &args.foreign, &args.mappings)?;
+        Ok(Self { models, choices })
+    }
+
+    /// What the runs of one scenario share.
+    fn spec(&self, args: &StudyArgs, scenario: &'static Scenario) -> Result<Spec, HarnessError> {
+        let (truth, filters) = self.models.cast(scenario, &self.choices, &args.assignments)?;
+        let suggested = self.models.truth.fmu.description().default_experiment.step_size;
+        // A foreign truth may keep its sample period to itself; then it is taken to sample at each step.
+        let sample_period = self
+            .models
+            .sample_period(&truth)
+            .or(args.step)
+            .or(suggested)
+            .unwrap_or(1.0);
+        Ok(Spec {
+            scenario,
+            truth,
+            filters,
+            seed: args.seed,
+            step: args.step.unwrap_or(sample_period),
+            sample_period,
+            scheme: args.scheme.into(),
+        })
+    }
+}

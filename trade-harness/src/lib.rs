@@ -1,0 +1,25 @@
+//! Monte Carlo trade study of navigation filters, coupled through FMI 2.0.
+//!
+//! A study couples one truth FMU with one navigation FMU for each filter, repeats that over seeded runs on all cores,
+//! and reduces the runs to tables. Truth and filters are known only through FMI and the variable names of the
+//! interface, so anyone's FMU can take either place. No physics and no filter lives here; statistics are in `stats`,
+//! loading and stepping in `fmi2-import` and `cosim`.
+//!
+//! Start reading at [`study::Study`], then [`run::run_once`], which is one run; [`scenarios`] lists the worlds and
+//! [`commands`] what the command line offers.
+
+pub mod cli;
+pub mod commands;
+pub mod error;
+pub mod models;
+mod ordered;
+pub mod output;
+pub mod pack;
+pub mod report;
+pub mod run;
+pub mod scenarios;
+pub mod score;
+pub mod signals;
+pub mod study;
+
+pub use error::HarnessError;

@@ -1,0 +1,342 @@
+//! The FMUs of a study: which file plays which part, and with which values it starts.
+
+mod arguments;
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+
+use cosim::{FmuSlave, Slave, Value};
+use fmi2_import::{Causality, Fmu, ModelDescription};
+
+use crate::HarnessError;
+use crate::scenarios::Scenario;
+
+pub use arguments::{Assignment, FilterChoice, ForeignFilter, Mapping, PAPER};
+
+/// Name under which `--set` addresses the truth.
+pub const TRUTH: &str = "fmu-truth";
+/// Name under which `--set` addresses the navigation FMU.
+pub const NAV: &str = "fmu-nav";
+
+/// Where new slaves come from: an FMU, or a mock in tests.
+pub trait SlaveSource: Send + Sync {
+    /// A fresh slave of this name.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn create(&self, name: &str) -> Result<Box<dyn Slave>, HarnessError>;
+}
+
+impl SlaveSource for Fmu {
+    fn create(&self, name: &str) -> Result<Box<dyn Slave>, HarnessError> {
+        Ok(Box::new(FmuSlave::new(self.instantiate(name, false)?)))
+    }
+}
+
+/// One part in a run: where its slave comes from and what is set before it starts.
+#[derive(Clone)]
+pub struct Participant {
+    /// Name of the slave; for a filter the text of the `filter` column.
+    pub label: String,
+    /// Where the slave comes from.
+    pub source: Arc<dyn SlaveSource>,
+    /// Name mapping, (own name, contract name).
+    pub aliases: Vec<(String, String)>,
+    /// Start values by contract name, each name once.
+    pub starts: Vec<(String, Value)>,
+    /// The same as text, under the FMU's own names, for the record.
+    pub record: Vec<(String, String)>,
+}
+
+impl fmt::Debug for Participant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Participant")
+            .field("label", &self.label)
+            .field("record", &self.record)
+            .finish_non_exhaustive()
+    }
+}
+
+/// An opened FMU and its name in the study.
+#[derive(Clone)]
+pub struct Model {
+    /// `fmu-truth`, `fmu-nav` or the label of a foreign filter.
+    pub name: String,
+    /// The FMU.
+    pub fmu: Arc<Fmu>,
+    /// Name mapping, (own name, contract name), by scalar.
+    pub aliases: Vec<(String, String)>,
+}
+
+impl Model {
+    fn open(name: &str, path: &Path, mappings: &[Mapping]) -> Result<Self, HarnessError> {
+        let fmu = Arc::new(Fmu::open(path)?);
+        let mut aliases = Vec::new();
+        for mapping in mappings.iter().filter(|m| m.model == name) {
+            aliases.extend(scalar_mappings(fmu.description(), mapping)?);
+        }
+        Ok(Self {
+            name: name.to_owned(),
+            fmu,
+            aliases,
+        })
+    }
+
+    fn description(&self) -> &ModelDescription {
+        self.fmu.description()
+    }
+}
+
+/// The mapping of each scalar that a mapping of names stands for.
+fn scalar_mappings(description: &ModelDescription, mapping: &Mapping) -> Result<Vec<(String, String)>, HarnessError> {
+    let scalars: Vec<_> = description
+        .variables
+        .iter()
+        .filter_map(|v| {
+            let indices = v.name.strip_prefix(&mapping.own)?;
+            (indices.is_empty() || indices.starts_with('['))
+                .then(|| (v.name.clone(), format!("{}{indices}", mapping.contract)))
+        })
+        .collect();
+    if scalars.is_empty() {
+        description.variable(&mapping.own)?;
+    }
+    Ok(scalars)
+}
+
+/// Every FMU of a study.
+pub struct Models {
+    /// The world.
+    pub truth: Model,
+    /// Our filters; absent when a study holds foreign ones only.
+    pub nav: Option<Model>,
+    /// Filters of others, in the order given.
+    pub foreign: Vec<Model>,
+}
+
+impl Models {
+    /// Opens the files.
+    ///
+    /// # Errors
+    /// A file that is no usable FMU; [`HarnessError::UnknownModel`] for a mapping of an FMU that is not in the study.
+    pub fn open(
+        truth: &Path,
+        nav: Option<&Path>,
+        foreign: &[ForeignFilter],
+        mappings: &[Mapping],
+    ) -> Result<Self, HarnessError> {
+        let models = Self {
+            truth: Model::open(TRUTH, truth, mappings)?,
+            nav: nav.map(|path| Model::open(NAV, path, mappings)).transpose()?,
+            foreign: foreign
+                .iter()
+                .map(|f| Model::open(&f.label, &f.path, mappings))
+                .collect::<Result<_, _>>()?,
+        };
+        for mapping in mappings {
+            models.require(
+                &mapping.model,
+                &format!("{}.{}={}", mapping.model, mapping.own, mapping.contract),
+            )?;
+        }
+        Ok(models)
+    }
+
+    /// Every FMU, truth first.
+    pub fn all(&self) -> impl Iterator<Item = &Model> {
+        std::iter::once(&self.truth).chain(&self.nav).chain(&self.foreign)
+    }
+
+    fn require(&self, name: &str, text: &str) -> Result<(), HarnessError> {
+        if self.all().any(|m| m.name == name) {
+            return Ok(());
+        }
+        Err(HarnessError::UnknownModel {
+            model: name.to_owned(),
+            text: text.to_owned(),
+            known: self.all().map(|m| m.name.as_str()).collect::<Vec<_>>().join(", "),
+        })
+    }
+
+    /// The parts of a run: the truth, then each chosen filter, then the foreign ones.
+    ///
+    /// # Errors
+    /// What cannot be set or does not exist, with the names that do.
+    pub fn cast(
+        &self,
+        scenario: &Scenario,
+        choices: &[FilterChoice],
+        assignments: &[Assignment],
+    ) -> Result<(Participant, Vec<Participant>), HarnessError> {
+        for a in assignments {
+            self.require(&a.model, &format!("{}.{}={}", a.model, a.variable, a.value))?;
+        }
+        let truth = StartValues::new(&self.truth)
+            .scenario(scenario)?
+            .assign(assignments)?
+            .named(TRUTH);
+        let mut filters = Vec::new();
+        for choice in choices {
+            let nav = self.nav.as_ref().ok_or_else(|| HarnessError::NoNav {
+                label: choice.label.clone(),
+            })?;
+            let starts = StartValues::new(nav)
+                .scenario(scenario)?
+                .filter(choice)?
+                .assign(assignments)?;
+            filters.push(starts.named(&choice.label));
+        }
+        for model in &self.foreign {
+            filters.push(
+                StartValues::new(model)
+                    .scenario(scenario)?
+                    .assign(assignments)?
+                    .named(&model.name),
+            );
+        }
+        let mut labels = BTreeSet::from([TRUTH]);
+        if let Some(twice) = filters.iter().find(|f| !labels.insert(&f.label)) {
+            return Err(HarnessError::LabelTwice {
+                label: twice.label.clone(),
+            });
+        }
+        if filters.is_empty() {
+            return Err(HarnessError::NoFilter);
+        }
+        Ok((truth, filters))
+    }
+
+    /// Time between the truth's samples, s, if it has a parameter of that name.
+    pub fn sample_period(&self, truth: &Participant) -> Option<f64> {
+        let set = truth
+            .starts
+            .iter()
+            .find(|(name, _)| name == "sample_period")
+            .map(|(_, v)| v.clone());
+        let variable = self.truth.description().get("sample_period");
+        match set.or_else(|| variable?.start())? {
+            Value::Real(period) => Some(period),
+            _ => None,
+        }
+    }
+}
+
+/// Start values of one FMU as they come together: scenario, filter, preset, then the user's own.
+struct StartValues<'a> {
+    model: &'a Model,
+    values: Vec<(String, Value)>,
+}
+
+impl<'a> StartValues<'a> {
+    fn new(model: &'a Model) -> Self {
+        Self {
+            model,
+            values: Vec::new(),
+        }
+    }
+
+    /// Sets a variable by its own name; the last value of a name counts.
+    fn set(&mut self, name: &str, text: &str) -> Result<(), HarnessError> {
+        let value = self.model.description().variable(name)?.parse_value(text)?;
+        self.values.retain(|(n, _)| n != name);
+        self.values.push((name.to_owned(), value));
+        Ok(())
+    }
+
+    /// A foreign FMU without the parameter knows one world only.
+    fn scenario(mut self, scenario: &Scenario) -> Result<Self, HarnessError> {
+        if self.model.description().get("scenario").is_some() {
+            self.set("scenario", scenario.name)?;
+        }
+        Ok(self)
+    }
+
+    fn filter(mut self, choice: &FilterChoice) -> Result<Self, HarnessError> {
+        let description = self.model.description();
+        let items = description.variable("filter")?.enumeration_items().unwrap_or_default();
+        if !items.iter().any(|i| i.name == choice.name) {
+            return Err(HarnessError::UnknownFilter {
+                name: choice.name.clone(),
+                known: items.iter().map(|i| i.name.as_str()).collect::<Vec<_>>().join(", "),
+            });
+        }
+        self.set("filter", &choice.name)?;
+        let presets = || description.presets.iter().filter(|p| p.filter == choice.name);
+        match presets().find(|p| p.name == choice.preset) {
+            Some(preset) => {
+                for (variable, text) in &preset.sets {
+                    self.set(variable, text)?;
+                }
+            }
+            // The paper's values are those the FMU starts with, so it need not list them.
+            None if choice.preset == PAPER => {}
+            None => {
+                let known: BTreeSet<&str> = presets().map(|p| p.name.as_str()).chain([PAPER]).collect();
+                return Err(HarnessError::UnknownPreset {
+                    filter: choice.name.clone(),
+                    preset: choice.preset.clone(),
+                    known: known.into_iter().collect::<Vec<_>>().join(", "),
+                });
+            }
+        }
+        Ok(self)
+    }
+
+    fn assign(mut self, assignments: &[Assignment]) -> Result<Self, HarnessError> {
+        for Assignment { model, variable, value } in assignments.iter().filter(|a| a.model == self.model.name) {
+            let option = match variable.as_str() {
+                "scenario" => Some("--scenario"),
+                "study_seed" => Some("--seed"),
+                "run" => Some("--runs, or --run of replay"),
+                "filter" if model == NAV => Some("--filters"),
+                _ => None,
+            };
+            if let Some(option) = option {
+                let (model, variable) = (model.clone(), variable.clone());
+                return Err(HarnessError::Reserved {
+                    model,
+                    variable,
+                    option,
+                });
+            }
+            let causality = self.model.description().variable(variable)?.causality;
+            if causality != Causality::Parameter {
+                let (model, variable) = (model.clone(), variable.clone());
+                return Err(HarnessError::NotAParameter {
+                    model,
+                    variable,
+                    causality,
+                });
+            }
+            self.set(variable, value)?;
+        }
+        Ok(self)
+    }
+
+    fn named(self, label: &str) -> Participant {
+        let Model { fmu, aliases, .. } = self.model;
+        let text = |name: &str, value: &Value| {
+            fmu.description()
+                .get(name)
+                .map_or_else(|| format!("{value:?}"), |v| v.format_value(value))
+        };
+        let contract = |own: &String| aliases.iter().find(|(o, _)| o == own).map_or(own, |(_, c)| c).clone();
+        Participant {
+            label: label.to_owned(),
+            source: fmu.clone(),
+            aliases: aliases.clone(),
+            record: self
+                .values
+                .iter()
+                .map(|(name, value)| (name.clone(), text(name, value)))
+                .collect(),
+            starts: self
+                .values
+                .iter()
+                .map(|(name, value)| (contract(name), value.clone()))
+                .collect(),
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! The output folder: checked before the first run, written file by file, never half.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use crate::HarnessError;
+
+/// A folder that has been seen to take files.
+#[derive(Debug)]
+pub struct OutputFolder {
+    path: PathBuf,
+}
+
+impl OutputFolder {
+    /// Creates the folder if need be and writes and removes a file in it.
+    ///
+    /// # Errors
+    /// [`HarnessError::NotAFolder`], [`HarnessError::Write`].
+    pub fn prepare(path: &Path) -> Result<Self, HarnessError> {
+        if path.exists() && !path.is_dir() {
+            return Err(HarnessError::NotAFolder { path: path.to_owned() });
+        }
+        fs::create_dir_all(path).map_err(|source| HarnessError::Write {
+            path: path.to_owned(),
+            source,
+        })?;
+        let probe = temporary(&path.join("probe"));
+        fs::write(&probe, b"")
+            .and_then(|()| fs::remove_file(&probe))
+            .map_err(|source| HarnessError::Write {
+                path: path.to_owned(),
+                source,
+            })?;
+        Ok(Self { path: path.to_owned() })
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Puts a file into the folder, whole or not at all, in place of one of that name.
+    ///
+    /// * `name`: relative; folders in it are created.
+    ///
+    /// # Errors
+    /// [`HarnessError::Write`]; then a file that was there still is.
+    pub fn write(&self, name: &str, contents: &[u8]) -> Result<PathBuf, HarnessError> {
+        let path = self.path.join(name);
+        write_whole(&path, contents)?;
+        Ok(path)
+    }
+}
+
+/// Checks, before the work, that a file can be written at this path; its folder is created if need be.
+///
+/// # Errors
+/// [`HarnessError::NotAFile`], and those of [`OutputFolder::prepare`].
+pub fn prepare_file(path: &Path) -> Result<(), HarnessError> {
+    if path.is_dir() || path.file_name().is_none() {
+        return Err(HarnessError::NotAFile { path: path.to_owned() });
+    }
+    let folder = path
+        .parent()
+        .filter(|p| !p.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
+    OutputFolder::prepare(folder).map(|_| ())
+}
+
+/// Writes a file beside its place and moves it there.
+///
+/// # Errors
+/// [`HarnessError::Write`]; then a file that was there still is.
+pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), HarnessError> {
+    let beside = temporary(path);
+    let attempt = || -> io::Result<()> {
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        let mut file = fs::File::create(&beside)?;
+        file.write_all(contents)?;
+        file.sync_all()?;
+        fs::rename(&beside, path)
+    };
+    attempt().map_err(|source| {
+        // Best effort: the first error is the one to tell.
+        let _ = fs::remove_file(&beside);
+        HarnessError::Write {
+            path: path.to_owned(),
+            source,
+        }
+    })
+}
+
+/// A name beside the file that no other process uses.
+fn temporary(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!(".{name}.{}.tmp", std::process::id()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_whole_and_nothing_else_is_left() {
+        let dir = tempfile::tempdir().unwrap();
+        let out = OutputFolder::prepare(&dir.path().join("a/b")).unwrap();
+        fs::write(out.path().join("kept.txt"), "mine").unwrap();
+        out.write("epochs/x.csv", b"one").unwrap();
+        let path = out.write("epochs/x.csv", b"two").unwrap();
+        assert_eq!(fs::read(path).unwrap(), b"two");
+        let names = |p: &Path| {
+            fs::read_dir(p)
+                .unwrap()
+                .map(|e| e.unwrap().file_name())
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(names(&out.path().join("epochs")), ["x.csv"]);
+        assert_eq!(names(out.path()).len(), 2);
+    }
+
+    #[test]
+    fn a_file_in_the_way_is_told() {
+        let dir = tempfile::tempdir().unwrap();
+        let file = dir.path().join("results");
+        fs::write(&file, "mine").unwrap();
+        assert!(matches!(
+            OutputFolder::prepare(&file),
+            Err(HarnessError::NotAFolder { .. })
+        ));
+        assert!(matches!(
+            OutputFolder::prepare(&file.join("x")),
+            Err(HarnessError::Write { .. })
+        ));
+        assert_eq!(fs::read(&file).unwrap(), b"mine");
+        assert!(matches!(prepare_file(dir.path()), Err(HarnessError::NotAFile { .. })));
+        prepare_file(&dir.path().join("new/replay.csv")).unwrap();
+        assert!(dir.path().join("new").is_dir());
+    }
+
+    #[test]
+    fn a_failed_write_leaves_what_was_there() {
+        let dir = tempfile::tempdir().unwrap();
+        let out = OutputFolder::prepare(dir.path()).unwrap();
+        // A folder that holds something cannot be replaced by a file.
+        fs::create_dir(dir.path().join("summary.csv")).unwrap();
+        fs::write(dir.path().join("summary.csv/inner"), "mine").unwrap();
+        let error = out.write("summary.csv", b"new").unwrap_err();
+        assert!(error.to_string().contains("summary.csv"), "{error}");
+        assert_eq!(fs::read(dir.path().join("summary.csv/inner")).unwrap(), b"mine");
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+    }
+}

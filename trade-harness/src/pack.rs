@@ -1,0 +1,347 @@
+//! Builds our two FMU crates and puts each into a `.fmu` file.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{BufRead, BufReader, Cursor, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use fmi2_import::{Causality, Fmu, LIBRARY_SUFFIX, ModelDescription, PLATFORM};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+use crate::HarnessError;
+use crate::models::{NAV, TRUTH};
+use crate::output::write_whole;
+
+/// Our FMUs: crate and model name, and the identifier that library and C functions go by.
+pub const FMUS: [(&str, &str); 2] = [(TRUTH, "fmu_truth"), (NAV, "fmu_nav")];
+
+/// A `.fmu` file that is up to date.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Packed {
+    /// The file.
+    pub path: PathBuf,
+    /// Whether it had to be written.
+    pub written: bool,
+}
+
+/// The workspace this harness was compiled in.
+pub fn home_workspace() -> PathBuf {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    own.parent().unwrap_or(own).to_owned()
+}
+
+/// Where `.fmu` files go unless said otherwise.
+pub fn default_folder(workspace: &Path) -> PathBuf {
+    workspace.join("target/fmu")
+}
+
+/// Path of one of our FMUs in a folder.
+pub fn fmu_path(folder: &Path, name: &str) -> PathBuf {
+    folder.join(format!("{name}.fmu"))
+}
+
+/// Builds what has changed and packs both FMUs into a folder; a file whose contents would be the same stays.
+///
+/// Cargo shows its own progress on stderr, unless `quiet`.
+///
+/// # Errors
+/// [`HarnessError::NoWorkspace`], [`HarnessError::NoCargo`], [`HarnessError::Build`], [`HarnessError::NoLibrary`],
+/// reading, writing and zip errors, and [`HarnessError::DoesNotStart`] for a library and description that do not belong together.
+pub fn pack(workspace: &Path, folder: &Path, quiet: bool) -> Result<Vec<Packed>, HarnessError> {
+    let libraries = build(workspace, quiet)?;
+    let mut packed = Vec::new();
+    for (name, identifier) in FMUS {
+        let library = libraries.get(identifier).ok_or_else(|| HarnessError::NoLibrary {
+            target: identifier.to_owned(),
+        })?;
+        let description = workspace
+            .join("modelDescription")
+            .join(name)
+            .join("modelDescription.xml");
+        let mut files = BTreeMap::from([
+            ("modelDescription.xml".to_owned(), read(&description)?),
+            (
+                format!("binaries/{PLATFORM}/{identifier}.{LIBRARY_SUFFIX}"),
+                read(library)?,
+            ),
+        ]);
+        let path = fmu_path(folder, name);
+        files.insert(
+            "documentation/index.html".to_owned(),
+            documentation(name, &path, &files)?,
+        );
+        files.extend(licences(workspace)?);
+        let archive = archive(&path, &files)?;
+        let written = fs::read(&path).ok().as_ref() != Some(&archive);
+        if written {
+            write_whole(&path, &archive)?;
+        }
+        packed.push(Packed { path, written });
+    }
+    Ok(packed)
+}
+
+/// Runs cargo; returns the shared library of each identifier.
+fn build(workspace: &Path, quiet: bool) -> Result<BTreeMap<String, PathBuf>, HarnessError> {
+    let manifest = workspace.join("Cargo.toml");
+    if !FMUS
+        .iter()
+        .all(|(name, _)| workspace.join(name).join("Cargo.toml").is_file())
+    {
+        return Err(HarnessError::NoWorkspace {
+            path: workspace.to_owned(),
+        });
+    }
+    let program = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
+    let mut command = Command::new(&program);
+    command.args([
+        "build",
+        "--release",
+        "--message-format",
+        "json-render-diagnostics",
+        "--manifest-path",
+    ]);
+    command.arg(&manifest);
+    for (name, _) in FMUS {
+        command.args(["--package", name]);
+    }
+    if quiet {
+        command.arg("--quiet");
+    }
+    let no_cargo = |source| HarnessError::NoCargo {
+        program: program.clone(),
+        source,
+    };
+    let mut child = command
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .spawn()
+        .map_err(no_cargo)?;
+    let mut libraries = BTreeMap::new();
+    if let Some(messages) = child.stdout.take() {
+        for line in BufReader::new(messages).lines().map_while(Result::ok) {
+            libraries.extend(library_of(&line));
+        }
+    }
+    let status = child.wait().map_err(no_cargo)?;
+    if status.success() {
+        Ok(libraries)
+    } else {
+        Err(HarnessError::Build { status })
+    }
+}
+
+/// Target and file of a shared library, if this line of cargo's JSON messages tells of one.
+fn library_of(line: &str) -> Option<(String, PathBuf)> {
+    let message: serde_json::Value = serde_json::from_str(line).ok()?;
+    if message["reason"] != "compiler-artifact" {
+        return None;
+    }
+    let files = message["filenames"].as_array()?;
+    let library = files
+        .iter()
+        .filter_map(|f| f.as_str())
+        .map(Path::new)
+        .find(|f| f.extension().is_some_and(|extension| extension == LIBRARY_SUFFIX))?;
+    Some((message["target"]["name"].as_str()?.to_owned(), library.to_owned()))
+}
+
+/// The licence files of the workspace, with the entry page the standard asks for.
+fn licences(workspace: &Path) -> Result<BTreeMap<String, Vec<u8>>, HarnessError> {
+    let mut found = BTreeMap::new();
+    let entries = fs::read_dir(workspace).map_err(|source| HarnessError::Read {
+        path: workspace.to_owned(),
+        source,
+    })?;
+    for entry in entries.flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if name.starts_with("LICENSE") && entry.path().is_file() {
+            found.insert(format!("documentation/licenses/{name}"), read(&entry.path())?);
+        }
+    }
+    let files: Vec<&str> = found.keys().filter_map(|path| path.rsplit('/').next()).collect();
+    let mut entry = format!("Licence: {}\n", env!("CARGO_PKG_LICENSE"));
+    if !files.is_empty() {
+        entry.push_str(&format!("Full texts: {}\n", files.join(", ")));
+    }
+    found.insert("documentation/licenses/license.txt".to_owned(), entry.into_bytes());
+    Ok(found)
+}
+
+/// A zip archive that depends on names and contents alone.
+fn archive(path: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>, HarnessError> {
+    let failed = |source| HarnessError::Zip {
+        path: path.to_owned(),
+        source,
+    };
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .last_modified_time(zip::DateTime::default())
+        .unix_permissions(0o644);
+    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, contents) in files {
+        writer.start_file(name, options).map_err(failed)?;
+        writer.write_all(contents).map_err(|e| failed(e.into()))?;
+    }
+    Ok(writer.finish().map_err(failed)?.into_inner())
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, HarnessError> {
+    fs::read(path).map_err(|source| HarnessError::Read {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+/// Opens and starts the FMU as far as it is, so that a description that does not belong to the library is found here,
+/// and describes it.
+fn documentation(name: &'static str, path: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>, HarnessError> {
+    let unwritable = |source| HarnessError::Write {
+        path: path.to_owned(),
+        source,
+    };
+    let mut trial = tempfile::Builder::new().suffix(".fmu").tempfile().map_err(unwritable)?;
+    trial.write_all(&archive(path, files)?).map_err(unwritable)?;
+    let fmu = Fmu::open(trial.path())?;
+    fmu.instantiate("pack", false)
+        .map_err(|source| HarnessError::DoesNotStart {
+            name,
+            source: Box::new(source),
+        })?;
+    Ok(html(fmu.description()).into_bytes())
+}
+
+const STYLE: &str = "body{font:15px/1.5 sans-serif;margin:2em auto;max-width:70em;padding:0 1em}\
+table{border-collapse:collapse}td,th{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left;vertical-align:top}\
+code{white-space:nowrap}";
+
+/// The page `documentation/index.html`: what the FMU is, its presets and its variables.
+fn html(d: &ModelDescription) -> String {
+    let name = escape(&d.model_name);
+    let mut page = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title><style>{STYLE}</style></head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n<p>FMI 2.0 co-simulation, version {}, licence {}.</p>\n",
+        escape(d.description.as_deref().unwrap_or_default()),
+        escape(d.version.as_deref().unwrap_or("unknown")),
+        escape(d.license.as_deref().unwrap_or("not stated")),
+    );
+    if !d.presets.is_empty() {
+        page.push_str("<h2>Presets</h2>\n<table>\n<tr><th>preset</th><th>sets</th><th>meaning</th></tr>\n");
+        for p in &d.presets {
+            let sets: Vec<String> = p
+                .sets
+                .iter()
+                .map(|(n, v)| format!("<code>{}={}</code>", escape(n), escape(v)))
+                .collect();
+            let label = format!("{}@{}", p.filter, p.name);
+            let cells = [
+                format!("<code>{}</code>", escape(&label)),
+                sets.join(" "),
+                escape(&p.about),
+            ];
+            push_row(&mut page, &cells);
+        }
+        page.push_str("</table>\n");
+    }
+    let groups = [
+        ("Parameters", Causality::Parameter),
+        ("Inputs", Causality::Input),
+        ("Outputs", Causality::Output),
+        ("Local variables", Causality::Local),
+    ];
+    for (title, causality) in groups {
+        page.push_str(&format!("<h2>{title}</h2>\n<table>\n"));
+        page.push_str("<tr><th>name</th><th>type</th><th>unit</th><th>start</th><th>meaning</th></tr>\n");
+        for v in d.variables.iter().filter(|v| v.causality == causality) {
+            let start = v.start().map(|s| v.format_value(&s)).unwrap_or_default();
+            let cells = [
+                format!("<code>{}</code>", escape(&v.name)),
+                v.base_type().to_string(),
+                escape(v.unit().unwrap_or_default()),
+                escape(&start),
+                escape(v.description.as_deref().unwrap_or_default()),
+            ];
+            push_row(&mut page, &cells);
+        }
+        page.push_str("</table>\n");
+    }
+    page.push_str("</body>\n</html>\n");
+    page
+}
+
+fn push_row(page: &mut String, cells: &[String]) {
+    let cells: Vec<String> = cells.iter().map(|c| format!("<td>{c}</td>")).collect();
+    page.push_str(&format!("<tr>{}</tr>\n", cells.concat()));
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Read;
+
+    #[test]
+    fn archives_of_equal_files_are_equal_bytes() {
+        let files = BTreeMap::from([
+            ("modelDescription.xml".to_owned(), b"<x/>".to_vec()),
+            ("binaries/linux64/m.so".to_owned(), vec![7; 5000]),
+        ]);
+        let path = Path::new("m.fmu");
+        let bytes = archive(path, &files).unwrap();
+        assert_eq!(bytes, archive(path, &files).unwrap());
+        let mut zip = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
+        let names: Vec<String> = zip.file_names().map(|n| n.unwrap().into_owned()).collect();
+        assert_eq!(names, ["binaries/linux64/m.so", "modelDescription.xml"]);
+        let mut text = String::new();
+        zip.by_name("modelDescription.xml")
+            .unwrap()
+            .read_to_string(&mut text)
+            .unwrap();
+        assert_eq!(text, "<x/>");
+    }
+
+    #[test]
+    fn libraries_are_found_in_cargos_messages() {
+        let line = format!(
+            r#"{{"reason":"compiler-artifact","target":{{"name":"fmu_nav","kind":["cdylib"]}},"filenames":["/t/libfmu_nav.{LIBRARY_SUFFIX}","/t/libfmu_nav.d"]}}"#
+        );
+        let found = library_of(&line).unwrap();
+        assert_eq!(
+            found,
+            (
+                "fmu_nav".to_owned(),
+                PathBuf::from(format!("/t/libfmu_nav.{LIBRARY_SUFFIX}"))
+            )
+        );
+        assert!(library_of(r#"{"reason":"build-finished","success":true}"#).is_none());
+        assert!(library_of("no json").is_none());
+    }
+
+    #[test]
+    fn licences_name_their_files() {
+        let dir = tempfile::tempdir().unwrap();
+        fs::write(dir.path().join("LICENSE-MIT"), "as is").unwrap();
+        let found = licences(dir.path()).unwrap();
+        assert_eq!(found["documentation/licenses/LICENSE-MIT"], b"as is");
+        let entry = String::from_utf8(found["documentation/licenses/license.txt"].clone()).unwrap();
+        assert!(
+            entry.contains(env!("CARGO_PKG_LICENSE")) && entry.contains("LICENSE-MIT"),
+            "{entry}"
+        );
+    }
+
+    #[test]
+    fn a_folder_that_is_no_workspace_is_told() {
+        let dir = tempfile::tempdir().unwrap();
+        let error = pack(dir.path(), dir.path(), true).unwrap_err();
+        assert!(matches!(error, HarnessError::NoWorkspace { .. }), "{error}");
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
+    }
+}

@@ -1,0 +1,74 @@
+//! `epochs/*.csv`: what the paper's figures show, for one filter, as numbers over time.
+
+use super::cell;
+use crate::HarnessError;
+use crate::run::Spec;
+use crate::score::Quantity;
+use crate::study::FilterResult;
+
+/// Names of the columns of one axis: quantity, axis, unit.
+struct Axis {
+    name: String,
+    unit: &'static str,
+}
+
+fn axes(spec: &Spec, quantity: Quantity) -> [Axis; 3] {
+    let signals = &spec.scenario.signals;
+    let [a, b, c] = signals.axes;
+    let named = |prefix: &str, axes: [&str; 3], unit| {
+        axes.map(|axis| Axis {
+            name: format!("{prefix}_{axis}"),
+            unit,
+        })
+    };
+    match quantity {
+        Quantity::Position => named("pos", [a, b, c], "m"),
+        Quantity::Velocity => named("vel", [a, b, c], "m_s"),
+        Quantity::Acceleration => named("acc", [a, b, c], "m_s2"),
+        Quantity::Bias => named("bias", ["x", "y", "z"], "m_s2"),
+        Quantity::Residual => signals.residual.map(|(name, unit)| Axis {
+            name: name.replace('.', "_"),
+            unit,
+        }),
+    }
+}
+
+/// Contents of the file: at each sample the number of runs and, by axis, the mean error, Eq. (31), the sample sigma,
+/// Eq. (32), and the estimated sigma, Eq. (33); then mean NEES over its dimension and mean NIS over its rows.
+///
+/// Sigmas are single, not triple; epochs before the scored time are included.
+///
+/// # Errors
+/// [`HarnessError::Csv`].
+pub fn render(spec: &Spec, result: &FilterResult) -> Result<Vec<u8>, HarnessError> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut header = vec!["t_s".to_owned(), "runs".to_owned()];
+    for Axis { name, unit } in Quantity::ALL.iter().flat_map(|q| axes(spec, *q)) {
+        header.extend(["mean", "sample_sigma", "est_sigma"].map(|kind| format!("{kind}_{name}_{unit}")));
+    }
+    header.extend(["nees".to_owned(), "nis".to_owned()]);
+    writer.write_record(&header)?;
+
+    for epoch in 0..spec.epochs() {
+        let Some(position) = result.ensemble(Quantity::Position).at(epoch) else {
+            continue;
+        };
+        let mut record = vec![cell(Some(spec.time(epoch))), position.runs.to_string()];
+        for quantity in Quantity::ALL {
+            let moments = result.ensemble(quantity).at(epoch);
+            let sample = moments.map(|m| m.sample_sigma());
+            let estimated = moments.and_then(|m| m.estimated_sigma());
+            for axis in 0..3 {
+                record.push(cell(moments.map(|m| m.mean[axis])));
+                record.push(cell(sample.map(|s| s[axis])));
+                record.push(cell(estimated.map(|s| s[axis])));
+            }
+        }
+        record.push(cell(result.nees.at(epoch).map(|(_, mean)| mean)));
+        record.push(cell(result.nis.at(epoch).map(|(_, mean)| mean)));
+        writer.write_record(&record)?;
+    }
+    writer
+        .into_inner()
+        .map_err(|e| HarnessError::Csv(e.into_error().into()))
+}

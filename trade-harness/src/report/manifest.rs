@@ -1,0 +1,184 @@
+//! `manifest.json`: what was studied, and under `environment` where and when.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, SystemTime};
+
+use cosim::Scheme;
+use serde::Serialize;
+
+use crate::HarnessError;
+use crate::models::{Model, Participant};
+use crate::study::Study;
+
+/// The whole file; all but `environment` depends on the study alone.
+#[derive(Debug, Serialize)]
+pub struct Manifest {
+    /// Version of the harness.
+    pub harness_version: &'static str,
+    /// Each FMU by its name in the study.
+    pub models: BTreeMap<String, ModelFacts>,
+    /// Each scenario.
+    pub studies: Vec<StudyFacts>,
+    /// Files written beside the manifest.
+    pub files: Vec<String>,
+    /// What differs from one repeat to the next.
+    pub environment: Environment,
+}
+
+/// Which FMU it was.
+#[derive(Debug, Serialize)]
+pub struct ModelFacts {
+    model_name: String,
+    version: Option<String>,
+    guid: String,
+}
+
+impl ModelFacts {
+    /// Facts from the model description.
+    pub fn new(model: &Model) -> Self {
+        let d = model.fmu.description();
+        Self {
+            model_name: d.model_name.clone(),
+            version: d.version.clone(),
+            guid: d.guid.clone(),
+        }
+    }
+}
+
+/// What one scenario's study consisted of.
+#[derive(Debug, Serialize)]
+pub struct StudyFacts {
+    scenario: String,
+    case: String,
+    runs: u32,
+    study_seed: i32,
+    duration_s: f64,
+    scored_from_s: f64,
+    step_s: f64,
+    sample_period_s: f64,
+    scheme: &'static str,
+    truth: BTreeMap<String, String>,
+    filters: Vec<FilterFacts>,
+}
+
+#[derive(Debug, Serialize)]
+struct FilterFacts {
+    filter: String,
+    parameters: BTreeMap<String, String>,
+}
+
+impl StudyFacts {
+    /// Facts from the definition of the study.
+    pub fn new(study: &Study) -> Self {
+        let spec = &study.spec;
+        let parameters = |p: &Participant| p.record.iter().cloned().collect();
+        Self {
+            scenario: spec.scenario.name.to_owned(),
+            case: study.case.clone(),
+            runs: study.runs,
+            study_seed: spec.seed,
+            duration_s: spec.scenario.duration,
+            scored_from_s: spec.scenario.scored_from,
+            step_s: spec.step,
+            sample_period_s: spec.sample_period,
+            scheme: if spec.scheme == Scheme::Jacobi {
+                "jacobi"
+            } else {
+                "gauss-seidel"
+            },
+            truth: parameters(&spec.truth),
+            filters: spec
+                .filters
+                .iter()
+                .map(|f| FilterFacts {
+                    filter: f.label.clone(),
+                    parameters: parameters(f),
+                })
+                .collect(),
+        }
+    }
+}
+
+/// Where and when the study ran.
+#[derive(Debug, Serialize)]
+pub struct Environment {
+    /// Date and time of the end, UTC.
+    pub date: String,
+    /// Name of the machine, if it tells.
+    pub host: Option<String>,
+    /// Operating system and processor family.
+    pub platform: String,
+    /// Cores available.
+    pub cores: Option<usize>,
+    /// Threads used.
+    pub jobs: usize,
+    /// Command line.
+    pub command_line: Vec<String>,
+    /// File of each FMU.
+    pub fmu_paths: BTreeMap<String, String>,
+    /// Time on the clock for all runs, s.
+    pub wall_time_s: f64,
+    /// Peak memory of the process, MiB, if the system tells.
+    pub peak_memory_mib: Option<f64>,
+}
+
+impl Environment {
+    /// Looks around.
+    pub fn now(jobs: usize, wall: Duration, fmus: impl Iterator<Item = (String, String)>) -> Self {
+        let host = fs::read_to_string("/proc/sys/kernel/hostname").ok();
+        Self {
+            date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+            host: host
+                .map(|h| h.trim().to_owned())
+                .or_else(|| std::env::var("COMPUTERNAME").ok()),
+            platform: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
+            cores: std::thread::available_parallelism().ok().map(usize::from),
+            jobs,
+            command_line: std::env::args().collect(),
+            fmu_paths: fmus.collect(),
+            wall_time_s: wall.as_secs_f64(),
+            peak_memory_mib: peak_memory_mib(),
+        }
+    }
+}
+
+/// Peak memory of this process so far, MiB, if the system tells.
+pub fn peak_memory_mib() -> Option<f64> {
+    resident_peak_mib(Path::new("/proc/self/status"))
+}
+
+/// `VmHWM` of Linux, MiB.
+fn resident_peak_mib(status: &Path) -> Option<f64> {
+    let text = fs::read_to_string(status).ok()?;
+    let line = text.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
+    let kibibytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kibibytes / 1024.0)
+}
+
+impl Manifest {
+    /// Contents of `manifest.json`.
+    ///
+    /// # Errors
+    /// [`HarnessError::Json`].
+    pub fn render(&self) -> Result<Vec<u8>, HarnessError> {
+        let mut bytes = serde_json::to_vec_pretty(self)?;
+        bytes.push(b'\n');
+        Ok(bytes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn peak_memory_is_read_from_a_status_file() {
+        let dir = tempfile::tempdir().unwrap();
+        let file = dir.path().join("status");
+        fs::write(&file, "Name:\tx\nVmHWM:\t   51200 kB\nVmRSS:\t 1 kB\n").unwrap();
+        assert!((resident_peak_mib(&file).unwrap() - 50.0).abs() < 1e-12);
+        assert!(resident_peak_mib(&dir.path().join("none")).is_none());
+    }
+}

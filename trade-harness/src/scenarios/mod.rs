@@ -1,0 +1,167 @@
+//! The worlds a study can run in, seen from the harness: how long, which variables are compared in which axes, and what
+//! counts as reproducing the source.
+//!
+//! A scenario is one file here and one line in [`SCENARIOS`]; the FMUs' `scenario` enumeration has the item of its name.
+
+mod leo_venting;
+
+use nalgebra::Matrix3;
+
+use crate::HarnessError;
+use crate::signals::TruthSample;
+
+/// Every scenario, in the order lists show them.
+pub const SCENARIOS: &[Scenario] = &[leo_venting::SCENARIO];
+
+/// One world.
+#[derive(Debug)]
+pub struct Scenario {
+    /// Name, as in the FMUs' `scenario` enumeration.
+    pub name: &'static str,
+    /// What happens in it, in one sentence.
+    pub about: &'static str,
+    /// What it reproduces.
+    pub reference: &'static str,
+    /// Length of a run, s.
+    pub duration: f64,
+    /// Start of the time that statistics are taken over, s.
+    pub scored_from: f64,
+    /// Which variables are compared, in which axes.
+    pub signals: Signals,
+    /// What the reproduction is held to.
+    pub bounds: &'static [Bound],
+}
+
+/// Names of the variables that are compared, and the axes results are given in.
+#[derive(Debug)]
+pub struct Signals {
+    /// Relative position, m. Required of truth and filter.
+    pub position: Signal,
+    /// Relative velocity, m/s. Required of truth and filter.
+    pub velocity: Signal,
+    /// Unmodelled acceleration, m/s2.
+    pub acceleration: Signal,
+    /// Accelerometer bias, m/s2, in chaser body axes.
+    pub bias: Option<Signal>,
+    /// Position and velocity of the chaser, where the axes of the results depend on them. Required of the truth.
+    pub chaser: Option<[&'static str; 2]>,
+    /// Boolean of the truth that is false for a dropped sample.
+    pub measurement_valid: &'static str,
+    /// Innovation of the filter, in this order, with unit suffixes for column names.
+    pub residual: [(&'static str, &'static str); 3],
+    /// Rows of the measurement that `nis` is taken over.
+    pub nis_rows: u32,
+    /// Names of the axes results are given in.
+    pub axes: [&'static str; 3],
+    /// Matrix that turns the truth's axes into those of the results; `None` where they are undefined.
+    pub report_axes: fn(&TruthSample) -> Option<Matrix3<f64>>,
+}
+
+/// A 3-vector that both the truth and the filter offer; elements are `name[1]`..`name[3]`.
+#[derive(Debug)]
+pub struct Signal {
+    /// Name in the truth.
+    pub truth: &'static str,
+    /// Name in the filter.
+    pub estimate: &'static str,
+}
+
+/// A range that one column of `summary.csv` must lie in.
+#[derive(Debug)]
+pub struct Bound {
+    /// Filter label, as given to `--filters`.
+    pub filter: &'static str,
+    /// Column of `summary.csv`.
+    pub column: &'static str,
+    /// Smallest value.
+    pub low: f64,
+    /// Largest value.
+    pub high: f64,
+    /// What it says about the source.
+    pub claim: &'static str,
+}
+
+impl Bound {
+    /// The range in words.
+    pub fn range(&self) -> String {
+        if self.high.is_infinite() {
+            format!("at least {}", self.low)
+        } else if self.low.total_cmp(&self.high).is_eq() {
+            format!("exactly {}", self.low)
+        } else {
+            format!("{} to {}", self.low, self.high)
+        }
+    }
+}
+
+/// The scenario of this name.
+///
+/// # Errors
+/// [`HarnessError::UnknownScenario`], with the names that exist.
+pub fn find(name: &str) -> Result<&'static Scenario, HarnessError> {
+    SCENARIOS
+        .iter()
+        .find(|s| s.name == name)
+        .ok_or_else(|| HarnessError::UnknownScenario {
+            name: name.to_owned(),
+            known: SCENARIOS.iter().map(|s| s.name).collect::<Vec<_>>().join(", "),
+        })
+}
+
+/// Rows R, T, N of the target's orbit: R along its position, N along its angular momentum, T completes.
+///
+/// Position and velocity of the target are those of the chaser plus the relative ones, in inertial axes about the
+/// central body. `None` without the chaser's state or where position and velocity are parallel.
+pub fn target_rtn(truth: &TruthSample) -> Option<Matrix3<f64>> {
+    let (r_c, v_c) = truth.chaser?;
+    let r = r_c + truth.position;
+    let v = v_c + truth.velocity;
+    let radial = r.try_normalize(0.0)?;
+    let normal = r.cross(&v).try_normalize(0.0)?;
+    let transverse = normal.cross(&radial);
+    Some(Matrix3::from_rows(&[
+        radial.transpose(),
+        transverse.transpose(),
+        normal.transpose(),
+    ]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn every_scenario_is_found_by_its_name_and_scores_something() {
+        for scenario in SCENARIOS {
+            assert_eq!(find(scenario.name).unwrap().name, scenario.name);
+            assert!(scenario.scored_from < scenario.duration, "{}", scenario.name);
+            for bound in scenario.bounds {
+                assert!(bound.low <= bound.high, "{}: {}", scenario.name, bound.column);
+                assert!(
+                    crate::report::summary::COLUMNS.contains(&bound.column),
+                    "{}",
+                    bound.column
+                );
+            }
+        }
+        let error = find("leo_vent").unwrap_err().to_string();
+        assert!(error.contains("leo_vent") && error.contains("leo_venting"), "{error}");
+    }
+
+    /// A target on the x axis that moves along y and a bit outwards: R = x, T = y, N = z.
+    #[test]
+    fn rtn_of_a_case_worked_by_hand() {
+        let mut truth = TruthSample {
+            position: Vector3::new(1.0, 0.0, 0.0),
+            velocity: Vector3::new(0.0, 1.0, 0.0),
+            chaser: Some((Vector3::new(6.0, 0.0, 0.0), Vector3::new(0.5, 2.0, 0.0))),
+            ..TruthSample::default()
+        };
+        assert!((target_rtn(&truth).unwrap() - Matrix3::identity()).amax() < 1e-15);
+        truth.velocity = Vector3::new(0.0, -2.0, 0.0);
+        assert!(target_rtn(&truth).is_none());
+        truth.chaser = None;
+        assert!(target_rtn(&truth).is_none());
+    }
+}

@@ -1,0 +1,258 @@
+//! What one estimate is worth against the truth at its epoch.
+
+use nalgebra::{SMatrix, SVector, Vector3};
+use stats::nees;
+
+use crate::scenarios::Scenario;
+use crate::signals::{Estimate, Status, TruthSample};
+
+/// Quantities an ensemble is kept of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Relative position in the axes of the results, m.
+    Position,
+    /// Relative velocity in the axes of the results, m/s.
+    Velocity,
+    /// Unmodelled acceleration in the axes of the results, m/s2.
+    Acceleration,
+    /// Accelerometer bias in chaser body axes, m/s2.
+    Bias,
+    /// Innovation of the filter, measured minus predicted.
+    Residual,
+}
+
+impl Quantity {
+    /// All of them, in the order of [`Score::errors`].
+    pub const ALL: [Self; 5] = [
+        Self::Position,
+        Self::Velocity,
+        Self::Acceleration,
+        Self::Bias,
+        Self::Residual,
+    ];
+}
+
+/// Errors of one estimate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Score {
+    /// Index of the epoch, from 0: one less than the ordinal of the sample.
+    pub epoch: usize,
+    /// Estimate minus truth by [`Quantity`]; the innovation as it is.
+    pub errors: [Option<Vector3<f64>>; 5],
+    /// Variances the filter claims, same axes.
+    pub variances: [Option<Vector3<f64>>; 5],
+    /// NEES divided by its dimension.
+    pub nees: Option<f64>,
+    /// Number of states of the NEES.
+    pub dimension: usize,
+    /// The filter offers a covariance, but it is not symmetric, positive definite and finite.
+    pub covariance_broken: bool,
+    /// NIS divided by its rows; `None` while coasting.
+    pub nis: Option<f64>,
+    /// Position error beyond 100 m and, if a sigma is claimed, beyond ten times 3 sigma.
+    pub lost: bool,
+}
+
+/// Position error, m, below which a filter is never called diverged.
+const LOST_BEYOND: f64 = 100.0;
+/// Multiple of its own 3 sigma that a diverged filter exceeds.
+const LOST_FACTOR: f64 = 10.0;
+
+/// Compares an estimate with the truth at its epoch; `None` where the axes of the results are undefined.
+pub fn score(scenario: &Scenario, truth: &TruthSample, estimate: &Estimate) -> Option<Score> {
+    let axes = (scenario.signals.report_axes)(truth)?;
+    let position = estimate.position - truth.position;
+    let velocity = estimate.velocity - truth.velocity;
+    let acceleration = Option::zip(estimate.acceleration, truth.acceleration).map(|(e, t)| e - t);
+    let bias = Option::zip(estimate.bias, truth.bias).map(|(e, t)| e - t);
+
+    let covariance_finite = estimate
+        .covariance
+        .as_ref()
+        .is_none_or(|p| p.iter().all(|x| x.is_finite()));
+    let turned_variance = |block: usize| {
+        let p = estimate.block(block).filter(|_| covariance_finite)?;
+        Some((axes * p * axes.transpose()).diagonal())
+    };
+    let (normalised, covariance_broken) = match &estimate.covariance {
+        None => (None, false),
+        Some(p) => normalised_error(p, estimate.dimension, &[Some(position), Some(velocity), acceleration]),
+    };
+    let measured = truth.measured && !matches!(estimate.status, Some(Status::Coasting | Status::Initialising));
+    let finite = |v: Vector3<f64>| v.iter().all(|x| x.is_finite()).then_some(v);
+    let residual = estimate.residual.filter(|_| measured).and_then(finite);
+
+    let position_variance = turned_variance(0);
+    let lost = position.norm() > LOST_BEYOND
+        && position_variance.is_none_or(|v| position.norm() > LOST_FACTOR * 3.0 * v.sum().max(0.0).sqrt());
+    Some(Score {
+        epoch: truth.count.saturating_sub(1) as usize,
+        errors: [
+            Some(axes * position),
+            Some(axes * velocity),
+            acceleration.map(|a| axes * a),
+            bias,
+            residual,
+        ],
+        variances: [
+            position_variance,
+            turned_variance(1),
+            turned_variance(2).filter(|_| acceleration.is_some()),
+            estimate.bias_sigma.map(|s| s.component_mul(&s)).and_then(finite),
+            residual.and(estimate.residual_variance).and_then(finite),
+        ],
+        nees: normalised,
+        dimension: estimate.dimension,
+        covariance_broken,
+        nis: estimate
+            .nis
+            .filter(|n| measured && n.is_finite())
+            .map(|n| n / f64::from(scenario.signals.nis_rows)),
+        lost,
+    })
+}
+
+/// NEES divided by the dimension, and whether the covariance refused it.
+fn normalised_error(
+    covariance: &SMatrix<f64, 9, 9>,
+    dimension: usize,
+    errors: &[Option<Vector3<f64>>; 3],
+) -> (Option<f64>, bool) {
+    let mut stacked = SVector::<f64, 9>::zeros();
+    for (block, error) in errors.iter().enumerate() {
+        match error {
+            Some(error) => stacked.fixed_rows_mut::<3>(3 * block).copy_from(error),
+            // The truth of a state is unknown: its row has no error to normalise.
+            None if 3 * block < dimension => return (None, false),
+            None => {}
+        }
+    }
+    match nees(&stacked, covariance, dimension) {
+        Ok(value) if value.is_finite() => (Some(value / dimension as f64), false),
+        _ => (None, true),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::float_cmp)]
+mod tests {
+    use super::*;
+    use crate::scenarios::SCENARIOS;
+
+    fn truth() -> TruthSample {
+        TruthSample {
+            count: 7,
+            time: 7.0,
+            position: Vector3::new(10.0, 0.0, 0.0),
+            acceleration: Some(Vector3::zeros()),
+            bias: Some(Vector3::zeros()),
+            // R = -z, N = x, T = N x R = y.
+            chaser: Some((Vector3::new(-10.0, 0.0, -7e6), Vector3::new(0.0, 7e3, 0.0))),
+            measured: true,
+            ..TruthSample::default()
+        }
+    }
+
+    fn estimate() -> Estimate {
+        Estimate {
+            position: Vector3::new(11.0, 2.0, 3.0),
+            velocity: Vector3::zeros(),
+            acceleration: Some(Vector3::zeros()),
+            bias: Some(Vector3::new(1e-6, 0.0, 0.0)),
+            covariance: Some(SMatrix::from_diagonal(&SVector::<f64, 9>::from_fn(|i, _| {
+                (i + 1) as f64
+            }))),
+            dimension: 9,
+            bias_sigma: Some(Vector3::repeat(2e-6)),
+            residual: Some(Vector3::repeat(0.5)),
+            residual_variance: Some(Vector3::repeat(0.25)),
+            nis: Some(6.0),
+            jerk_root: None,
+            status: Some(Status::Tracking),
+        }
+    }
+
+    #[test]
+    fn a_case_worked_by_hand() {
+        let s = score(&SCENARIOS[0], &truth(), &estimate()).unwrap();
+        assert_eq!(s.epoch, 6);
+        assert_eq!(s.errors[0], Some(Vector3::new(-3.0, 2.0, 1.0)));
+        assert_eq!(s.variances[0], Some(Vector3::new(3.0, 2.0, 1.0)));
+        assert_eq!(s.errors[3], Some(Vector3::new(1e-6, 0.0, 0.0)));
+        // 1/1 + 4/2 + 9/3 over nine states.
+        assert!((s.nees.unwrap() - 6.0 / 9.0).abs() < 1e-15);
+        assert_eq!(s.nis, Some(2.0));
+        assert!(!s.lost && !s.covariance_broken);
+    }
+
+    #[test]
+    fn coasting_samples_have_no_innovation() {
+        let coasting = Estimate {
+            status: Some(Status::Coasting),
+            ..estimate()
+        };
+        let dropped = TruthSample {
+            measured: false,
+            ..truth()
+        };
+        for s in [
+            score(&SCENARIOS[0], &truth(), &coasting),
+            score(&SCENARIOS[0], &dropped, &estimate()),
+        ] {
+            let s = s.unwrap();
+            assert_eq!((s.nis, s.errors[4], s.variances[4]), (None, None, None));
+            assert!(s.nees.is_some());
+        }
+    }
+
+    #[test]
+    fn what_a_filter_lacks_is_absent() {
+        let six = Estimate {
+            dimension: 6,
+            acceleration: None,
+            ..estimate()
+        };
+        let s = score(&SCENARIOS[0], &truth(), &six).unwrap();
+        assert_eq!((s.errors[2], s.variances[2]), (None, None));
+        assert!((s.nees.unwrap() - 1.0).abs() < 1e-15);
+        let none = Estimate {
+            covariance: None,
+            bias_sigma: None,
+            nis: None,
+            residual_variance: None,
+            ..estimate()
+        };
+        let s = score(&SCENARIOS[0], &truth(), &none).unwrap();
+        assert_eq!(s.variances, [None; 5]);
+        assert_eq!((s.nees, s.nis, s.covariance_broken), (None, None, false));
+    }
+
+    #[test]
+    fn a_broken_covariance_is_told() {
+        for value in [-1.0, f64::NAN] {
+            let mut broken = estimate();
+            broken.covariance.as_mut().unwrap()[(8, 8)] = value;
+            let s = score(&SCENARIOS[0], &truth(), &broken).unwrap();
+            assert!(s.covariance_broken && s.nees.is_none());
+        }
+    }
+
+    #[test]
+    fn lost_means_far_off_and_unaware_of_it() {
+        let off = |metres: f64, sigma: f64, covariance: bool| {
+            let mut e = estimate();
+            e.position = truth().position + Vector3::new(metres, 0.0, 0.0);
+            e.covariance = covariance.then(|| SMatrix::identity() * (sigma * sigma / 3.0));
+            score(&SCENARIOS[0], &truth(), &e).unwrap().lost
+        };
+        assert!(!off(99.0, 1.0, true));
+        assert!(off(101.0, 1.0, true));
+        assert!(!off(101.0, 4.0, true));
+        assert!(off(101.0, 0.0, false));
+    }
+
+    #[test]
+    fn undefined_axes_give_no_score() {
+        assert!(score(&SCENARIOS[0], &TruthSample::default(), &estimate()).is_none());
+    }
+}

@@ -1,0 +1,363 @@
+//! A world and filters in plain Rust whose errors are known in closed form.
+
+use std::sync::Arc;
+
+use cosim::{BaseType, Causality, Port, Scheme, Slave, SlaveError};
+use trade_harness::HarnessError;
+use trade_harness::models::{Participant, SlaveSource};
+use trade_harness::run::Spec;
+use trade_harness::scenarios::{Scenario, Signal, Signals, target_rtn};
+
+/// 40 samples of 1 s, scored from the eleventh.
+pub static SCENARIO: Scenario = Scenario {
+    name: "mock",
+    about: "a target that stands still",
+    reference: "none",
+    duration: 40.0,
+    scored_from: 11.0,
+    signals: Signals {
+        position: Signal {
+            truth: "truth.r_tc_n",
+            estimate: "est.r_tc_n",
+        },
+        velocity: Signal {
+            truth: "truth.v_tc_n",
+            estimate: "est.v_tc_n",
+        },
+        acceleration: Signal {
+            truth: "truth.a_t_n",
+            estimate: "est.a_t_n",
+        },
+        bias: None,
+        chaser: Some(["truth.r_c_n", "truth.v_c_n"]),
+        measurement_valid: "lidar.valid",
+        residual: [
+            ("innov.range", "m"),
+            ("innov.azimuth", "rad"),
+            ("innov.elevation", "rad"),
+        ],
+        nis_rows: 3,
+        axes: ["r", "t", "n"],
+        report_axes: target_rtn,
+    },
+    bounds: &[],
+};
+
+/// Error of the estimate of a sample, the same on position and velocity; R, T, N are the axes x, y, z of this world.
+pub fn noise(run: i32, count: i32, axis: usize) -> f64 {
+    (f64::from(run * 31 + count * 17) * 12.9898 + axis as f64 * 78.233).sin()
+}
+
+/// Position sigma that the mock filter claims, m.
+pub const SIGMA: f64 = 0.5;
+
+/// What a mock does apart from its work.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Quirk {
+    None,
+    /// A step fails at this time of this run.
+    Fails {
+        run: i32,
+        time: f64,
+    },
+    /// Refuses to initialise.
+    Refuses,
+    /// The estimate of a run turns NaN.
+    NotFinite {
+        run: i32,
+    },
+    /// The status of a run says diverged, at sample 5 only.
+    SaysDiverged {
+        run: i32,
+    },
+    /// The estimate of a run is 200 m off.
+    Lost {
+        run: i32,
+    },
+    /// Offers position and velocity alone, untagged.
+    Bare,
+    /// Has another name for the velocity.
+    NoVelocity,
+    /// Tags each estimate with the sample before.
+    WrongTag,
+    /// A truth without an initial estimate.
+    NoInitialEstimate,
+    /// A truth that samples half a second late.
+    OffGrid,
+    /// Samples of multiples of five hold no measurement; the NIS output keeps a wild value then.
+    Drops,
+}
+
+struct Source {
+    truth: bool,
+    quirk: Quirk,
+}
+
+impl SlaveSource for Source {
+    fn create(&self, name: &str) -> Result<Box<dyn Slave>, HarnessError> {
+        Ok(Box::new(Mock::new(name, self.truth, self.quirk)))
+    }
+}
+
+/// A participant; its starts are those given to it by the run alone.
+fn participant(label: &str, truth: bool, quirk: Quirk) -> Participant {
+    Participant {
+        label: label.to_owned(),
+        source: Arc::new(Source { truth, quirk }),
+        aliases: Vec::new(),
+        starts: Vec::new(),
+        record: Vec::new(),
+    }
+}
+
+/// A study of these filters in the mock world.
+pub fn spec(truth: Quirk, filters: &[(&str, Quirk)]) -> Spec {
+    Spec {
+        scenario: &SCENARIO,
+        truth: participant("fmu-truth", true, truth),
+        filters: filters
+            .iter()
+            .map(|(label, quirk)| participant(label, false, *quirk))
+            .collect(),
+        seed: 1,
+        step: 1.0,
+        sample_period: 1.0,
+        scheme: Scheme::GaussSeidel,
+    }
+}
+
+struct Mock {
+    name: String,
+    truth: bool,
+    quirk: Quirk,
+    ports: Vec<Port>,
+    reals: Vec<f64>,
+    integers: Vec<i32>,
+    booleans: Vec<bool>,
+    last: i32,
+}
+
+impl Mock {
+    fn new(name: &str, truth: bool, quirk: Quirk) -> Self {
+        let mut mock = Self {
+            name: name.to_owned(),
+            truth,
+            quirk,
+            ports: Vec::new(),
+            reals: Vec::new(),
+            integers: Vec::new(),
+            booleans: Vec::new(),
+            last: 0,
+        };
+        mock.port("study_seed", BaseType::Integer, Causality::Parameter);
+        mock.port("run", BaseType::Integer, Causality::Parameter);
+        let sensor = if truth { Causality::Output } else { Causality::Input };
+        mock.port("sample_time", BaseType::Real, sensor);
+        mock.port("sample_count", BaseType::Integer, sensor);
+        mock.port("lidar.valid", BaseType::Boolean, sensor);
+        if quirk != Quirk::NoInitialEstimate {
+            mock.port("nav_init.x[1]", BaseType::Real, sensor);
+        }
+        if truth {
+            for name in [
+                "truth.r_tc_n",
+                "truth.v_tc_n",
+                "truth.a_t_n",
+                "truth.r_c_n",
+                "truth.v_c_n",
+            ] {
+                mock.vector(name);
+            }
+            return mock;
+        }
+        mock.vector("est.r_tc_n");
+        mock.vector(if quirk == Quirk::NoVelocity {
+            "their_v"
+        } else {
+            "est.v_tc_n"
+        });
+        if quirk != Quirk::Bare {
+            mock.port("est.count", BaseType::Integer, Causality::Output);
+            mock.port("est.time", BaseType::Real, Causality::Output);
+            mock.port("est.dimension", BaseType::Integer, Causality::Output);
+            mock.port("status", BaseType::Integer, Causality::Output);
+            mock.port("nis", BaseType::Real, Causality::Output);
+            for i in 1..=9 {
+                for j in 1..=9 {
+                    mock.port(&format!("cov.p[{i},{j}]"), BaseType::Real, Causality::Local);
+                }
+            }
+        }
+        mock
+    }
+
+    fn port(&mut self, name: &str, kind: BaseType, causality: Causality) {
+        let reference = match kind {
+            BaseType::Integer => {
+                self.integers.push(0);
+                self.integers.len() - 1
+            }
+            BaseType::Boolean => {
+                self.booleans.push(false);
+                self.booleans.len() - 1
+            }
+            _ => {
+                self.reals.push(0.0);
+                self.reals.len() - 1
+            }
+        };
+        self.ports.push(Port::new(name, reference as u32, kind, causality));
+    }
+
+    fn vector(&mut self, name: &str) {
+        for i in 1..=3 {
+            self.port(&format!("{name}[{i}]"), BaseType::Real, Causality::Output);
+        }
+    }
+
+    fn at(&self, name: &str) -> Option<usize> {
+        self.ports.iter().find(|p| p.name == name).map(|p| p.reference as usize)
+    }
+
+    fn put(&mut self, name: &str, value: f64) {
+        if let Some(at) = self.at(name) {
+            self.reals[at] = value;
+        }
+    }
+
+    fn put_integer(&mut self, name: &str, value: i32) {
+        if let Some(at) = self.at(name) {
+            self.integers[at] = value;
+        }
+    }
+
+    fn integer(&self, name: &str) -> i32 {
+        self.integers[self.at(name).unwrap()]
+    }
+
+    fn step_truth(&mut self, now: f64) {
+        let late = if self.quirk == Quirk::OffGrid { 0.5 } else { 0.0 };
+        let count = (now - late + 1e-9).floor() as i32;
+        if count > self.integer("sample_count") {
+            self.put_integer("sample_count", count);
+            self.put("sample_time", f64::from(count) + late);
+            let valid = self.at("lidar.valid").unwrap();
+            self.booleans[valid] = self.quirk != Quirk::Drops || count % 5 != 0;
+        }
+        self.put("truth.r_tc_n[1]", 100.0);
+        self.put("truth.r_c_n[1]", 7e6);
+        self.put("truth.v_c_n[2]", 7e3);
+    }
+
+    fn step_filter(&mut self) {
+        let (run, count) = (self.integer("run"), self.integer("sample_count"));
+        if count <= self.last {
+            return;
+        }
+        self.last = count;
+        for axis in 0..3 {
+            let mut position = noise(run, count, axis) + if axis == 0 { 100.0 } else { 0.0 };
+            match self.quirk {
+                Quirk::NotFinite { run: r } if r == run && count > 7 => position = f64::NAN,
+                Quirk::Lost { run: r } if r == run => position += 200.0,
+                _ => {}
+            }
+            self.put(&format!("est.r_tc_n[{}]", axis + 1), position);
+            for name in ["est.v_tc_n", "their_v"] {
+                self.put(&format!("{name}[{}]", axis + 1), noise(run, count, axis));
+            }
+        }
+        let tag = count - i32::from(self.quirk == Quirk::WrongTag);
+        self.put_integer("est.count", tag);
+        self.put("est.time", f64::from(count));
+        self.put_integer("est.dimension", 6);
+        let diverged = self.quirk == Quirk::SaysDiverged { run } && count == 5;
+        self.put_integer("status", if diverged { 4 } else { 2 });
+        let measured = self.booleans[self.at("lidar.valid").unwrap()];
+        self.put("nis", if measured { 6.0 } else { 1e6 });
+        for i in 1..=6 {
+            self.put(&format!("cov.p[{i},{i}]"), SIGMA * SIGMA);
+        }
+    }
+}
+
+impl Slave for Mock {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn ports(&self) -> Vec<Port> {
+        self.ports.clone()
+    }
+
+    fn enter_initialization(&mut self) -> Result<(), SlaveError> {
+        if self.quirk == Quirk::Refuses {
+            Err(SlaveError::new("enter_initialization", "no such world"))
+        } else {
+            Ok(())
+        }
+    }
+
+    fn do_step(&mut self, t: f64, h: f64) -> Result<(), SlaveError> {
+        if let Quirk::Fails { run, time } = self.quirk
+            && run == self.integer("run")
+            && t + h >= time - 1e-9
+        {
+            return Err(SlaveError::new("do_step", "out of cheese"));
+        }
+        if self.truth {
+            self.step_truth(t + h);
+        } else {
+            self.step_filter();
+        }
+        Ok(())
+    }
+
+    fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), SlaveError> {
+        references
+            .iter()
+            .zip(values)
+            .for_each(|(r, v)| *v = self.reals[*r as usize]);
+        Ok(())
+    }
+
+    fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), SlaveError> {
+        references
+            .iter()
+            .zip(values)
+            .for_each(|(r, v)| self.reals[*r as usize] = *v);
+        Ok(())
+    }
+
+    fn get_integer(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), SlaveError> {
+        references
+            .iter()
+            .zip(values)
+            .for_each(|(r, v)| *v = self.integers[*r as usize]);
+        Ok(())
+    }
+
+    fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Result<(), SlaveError> {
+        references
+            .iter()
+            .zip(values)
+            .for_each(|(r, v)| self.integers[*r as usize] = *v);
+        Ok(())
+    }
+
+    fn get_boolean(&mut self, references: &[u32], values: &mut [bool]) -> Result<(), SlaveError> {
+        references
+            .iter()
+            .zip(values)
+            .for_each(|(r, v)| *v = self.booleans[*r as usize]);
+        Ok(())
+    }
+
+    fn set_boolean(&mut self, references: &[u32], values: &[bool]) -> Result<(), SlaveError> {
+        references
+            .iter()
+            .zip(values)
+            .for_each(|(r, v)| self.booleans[*r as usize] = *v);
+        Ok(())
+    }
+}

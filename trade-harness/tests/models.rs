@@ -1,0 +1,179 @@
+//! Filters, presets, `--set` and `--map` resolved against FMUs that consist of a description alone.
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use cosim::Value;
+use trade_harness::HarnessError;
+use trade_harness::models::{Assignment, FilterChoice, ForeignFilter, Mapping, Models, Participant};
+use trade_harness::scenarios::SCENARIOS;
+
+const TRUTH: &str = r#"
+    <ScalarVariable name="scenario" valueReference="0" causality="parameter" variability="fixed"><Enumeration declaredType="Scenario" start="1"/></ScalarVariable>
+    <ScalarVariable name="study_seed" valueReference="1" causality="parameter" variability="fixed"><Integer start="1"/></ScalarVariable>
+    <ScalarVariable name="run" valueReference="2" causality="parameter" variability="fixed"><Integer start="0"/></ScalarVariable>
+    <ScalarVariable name="sample_period" valueReference="3" causality="parameter" variability="fixed"><Real start="2"/></ScalarVariable>
+    <ScalarVariable name="sample_count" valueReference="4" causality="output" variability="discrete"><Integer/></ScalarVariable>"#;
+
+const NAV: &str = r#"
+    <ScalarVariable name="scenario" valueReference="0" causality="parameter" variability="fixed"><Enumeration declaredType="Scenario" start="1"/></ScalarVariable>
+    <ScalarVariable name="filter" valueReference="1" causality="parameter" variability="fixed"><Enumeration declaredType="Filter" start="1"/></ScalarVariable>
+    <ScalarVariable name="milton.m_b" valueReference="2" causality="parameter" variability="fixed"><Integer start="30"/></ScalarVariable>
+    <ScalarVariable name="milton.whiten" valueReference="3" causality="parameter" variability="fixed"><Boolean start="false"/></ScalarVariable>"#;
+
+const FOREIGN: &str = r#"
+    <ScalarVariable name="gain" valueReference="0" causality="parameter" variability="fixed"><Real start="1"/></ScalarVariable>
+    <ScalarVariable name="x_hat[1]" valueReference="1" causality="output"><Real/></ScalarVariable>
+    <ScalarVariable name="x_hat[2]" valueReference="2" causality="output"><Real/></ScalarVariable>
+    <ScalarVariable name="x_hatch" valueReference="3" causality="output"><Real/></ScalarVariable>"#;
+
+fn write_fmu(folder: &Path, name: &str, variables: &str) -> PathBuf {
+    let xml = format!(
+        r#"<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="2.0" modelName="{name}" guid="x">
+  <CoSimulation modelIdentifier="m"/>
+  <TypeDefinitions>
+    <SimpleType name="Scenario"><Enumeration><Item name="leo_venting" value="1"/></Enumeration></SimpleType>
+    <SimpleType name="Filter"><Enumeration><Item name="fixed_q" value="1"/><Item name="milton" value="2"/></Enumeration></SimpleType>
+  </TypeDefinitions>
+  <VendorAnnotations><Tool name="trade-harness"><Presets>
+    <Preset filter="milton" name="short" about="a short buffer"><Set variable="milton.m_b" value="5"/><Set variable="milton.whiten" value="true"/></Preset>
+  </Presets></Tool></VendorAnnotations>
+  <ModelVariables>{variables}</ModelVariables>
+  <ModelStructure/>
+</fmiModelDescription>"#
+    );
+    let path = folder.join(format!("{name}.fmu"));
+    let mut zip = zip::ZipWriter::new(std::fs::File::create(&path).unwrap());
+    zip.start_file("modelDescription.xml", zip::write::SimpleFileOptions::default())
+        .unwrap();
+    zip.write_all(xml.as_bytes()).unwrap();
+    zip.finish().unwrap();
+    path
+}
+
+/// Resolves a study of a truth, our filters and a foreign one called `other`.
+fn cast(
+    filters: &[&str],
+    sets: &[&str],
+    maps: &[&str],
+) -> Result<(Models, Participant, Vec<Participant>), HarnessError> {
+    let folder = tempfile::tempdir().unwrap();
+    let truth = write_fmu(folder.path(), "truth", TRUTH);
+    let nav = write_fmu(folder.path(), "nav", NAV);
+    let other = write_fmu(folder.path(), "their", FOREIGN);
+    let other: ForeignFilter = format!("other={}", other.display()).parse().unwrap();
+    let maps: Vec<Mapping> = maps.iter().map(|m| m.parse().unwrap()).collect();
+    let choices: Vec<FilterChoice> = filters.iter().map(|f| f.parse().unwrap()).collect();
+    let sets: Vec<Assignment> = sets.iter().map(|s| s.parse().unwrap()).collect();
+    let models = Models::open(&truth, Some(&nav), &[other], &maps)?;
+    let (truth, filters) = models.cast(&SCENARIOS[0], &choices, &sets)?;
+    Ok((models, truth, filters))
+}
+
+fn refused(filters: &[&str], sets: &[&str], maps: &[&str]) -> HarnessError {
+    cast(filters, sets, maps).err().unwrap()
+}
+
+fn value<'a>(participant: &'a Participant, name: &str) -> Option<&'a Value> {
+    participant.starts.iter().find(|(n, _)| n == name).map(|(_, v)| v)
+}
+
+#[test]
+fn presets_come_before_what_the_user_sets() {
+    let sets = ["fmu-nav.milton.m_b=60", "other.gain=0.5", "fmu-truth.sample_period=0.5"];
+    let (models, truth, filters) = cast(&["fixed_q", "milton@short"], &sets, &[]).unwrap();
+    let labels: Vec<&str> = filters.iter().map(|f| f.label.as_str()).collect();
+    assert_eq!(labels, ["fixed_q", "milton@short", "other"]);
+    let short = &filters[1];
+    assert_eq!(value(short, "filter"), Some(&Value::Integer(2)));
+    assert_eq!(value(short, "milton.m_b"), Some(&Value::Integer(60)));
+    assert_eq!(value(short, "milton.whiten"), Some(&Value::Boolean(true)));
+    assert_eq!(value(&filters[0], "milton.whiten"), None);
+    assert_eq!(value(&filters[2], "gain"), Some(&Value::Real(0.5)));
+    // A foreign filter that knows one world only is not told which.
+    assert_eq!(value(&filters[2], "scenario"), None);
+    assert!(short.record.contains(&("filter".to_owned(), "milton".to_owned())));
+    assert_eq!(models.sample_period(&truth), Some(0.5));
+    let (models, truth, _) = cast(&[], &[], &[]).unwrap();
+    assert_eq!(models.sample_period(&truth), Some(2.0));
+}
+
+#[test]
+fn mappings_reach_every_element_of_a_vector() {
+    let (_, _, filters) = cast(&[], &[], &["other.x_hat=est.r_tc_n"]).unwrap();
+    let expected = [("x_hat[1]", "est.r_tc_n[1]"), ("x_hat[2]", "est.r_tc_n[2]")];
+    assert_eq!(
+        filters[0].aliases,
+        expected.map(|(own, ours)| (own.to_owned(), ours.to_owned()))
+    );
+}
+
+#[test]
+fn what_does_not_exist_or_fit_is_told() {
+    let known = |error: HarnessError, parts: &[&str]| {
+        let text = error.to_string();
+        assert!(parts.iter().all(|p| text.contains(p)), "{text}");
+        error
+    };
+    let e = known(refused(&["milto"], &[], &[]), &["milto", "fixed_q, milton"]);
+    assert!(matches!(e, HarnessError::UnknownFilter { .. }));
+    let e = known(refused(&["milton@long"], &[], &[]), &["long", "paper, short"]);
+    assert!(matches!(e, HarnessError::UnknownPreset { .. }));
+    let e = known(
+        refused(&[], &["milton.m_b=3"], &[]),
+        &["milton", "fmu-truth, fmu-nav, other"],
+    );
+    assert!(matches!(e, HarnessError::UnknownModel { .. }));
+    let e = known(refused(&[], &[], &["nobody.x=est.r_tc_n"]), &["nobody"]);
+    assert!(matches!(e, HarnessError::UnknownModel { .. }));
+    let e = known(
+        refused(&["milton"], &["fmu-nav.milton.m_c=3"], &[]),
+        &["milton.m_c", "milton.m_b"],
+    );
+    assert!(matches!(e, HarnessError::Import(_)));
+    let e = known(
+        refused(&["milton"], &["fmu-nav.milton.m_b=three"], &[]),
+        &["milton.m_b", "three"],
+    );
+    assert!(matches!(e, HarnessError::Import(_)));
+    let e = known(refused(&[], &[], &["other.y_hat=est.r_tc_n"]), &["y_hat"]);
+    assert!(matches!(e, HarnessError::Import(_)));
+    for (set, option) in [
+        ("fmu-truth.study_seed=3", "--seed"),
+        ("fmu-truth.run=3", "--run"),
+        ("fmu-nav.filter=milton", "--filters"),
+        ("fmu-nav.scenario=leo_venting", "--scenario"),
+    ] {
+        let e = known(refused(&["milton"], &[set], &[]), &[option]);
+        assert!(matches!(e, HarnessError::Reserved { .. }));
+    }
+    let e = known(
+        refused(&[], &["fmu-truth.sample_count=3"], &[]),
+        &["sample_count", "output"],
+    );
+    assert!(matches!(e, HarnessError::NotAParameter { .. }));
+    let e = known(refused(&["milton", "milton"], &[], &[]), &["milton", "twice"]);
+    assert!(matches!(e, HarnessError::LabelTwice { .. }));
+}
+
+#[test]
+fn a_study_needs_a_filter_and_its_fmu() {
+    let folder = tempfile::tempdir().unwrap();
+    let truth = write_fmu(folder.path(), "truth", TRUTH);
+    let models = Models::open(&truth, None, &[], &[]).unwrap();
+    assert!(matches!(
+        models.cast(&SCENARIOS[0], &[], &[]),
+        Err(HarnessError::NoFilter)
+    ));
+    let milton = ["milton".parse::<FilterChoice>().unwrap()];
+    assert!(matches!(
+        models.cast(&SCENARIOS[0], &milton, &[]),
+        Err(HarnessError::NoNav { .. })
+    ));
+    assert!(matches!(
+        Models::open(Path::new("/no/such.fmu"), None, &[], &[]),
+        Err(HarnessError::Import(_))
+    ));
+}

@@ -1,0 +1,284 @@
+//! Whole studies of mock slaves whose errors are known: statistics, order, failures and foreign filters.
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+
+mod mocks;
+
+use cosim::Scheme;
+use mocks::{Quirk, SIGMA, noise, spec};
+use trade_harness::HarnessError;
+use trade_harness::report::epochs;
+use trade_harness::report::runs::{Named, render_failures, render_paired, render_runs};
+use trade_harness::report::summary::{self, SummaryRow};
+use trade_harness::run::{Spec, rehearse};
+use trade_harness::study::{FilterResult, Study};
+
+const RUNS: i32 = 8;
+
+fn study(spec: Spec, jobs: usize) -> (Spec, Vec<FilterResult>) {
+    let study = Study {
+        spec,
+        runs: RUNS as u32,
+        jobs,
+        case: "nominal".to_owned(),
+    };
+    let filters = study.run(|_, _| ()).unwrap().filters;
+    (study.spec, filters)
+}
+
+/// Every deterministic file of the study as one text.
+fn files(spec: &Spec, filters: &[FilterResult]) -> String {
+    let rows: Vec<SummaryRow> = filters.iter().map(|f| SummaryRow::new("mock", "nominal", f)).collect();
+    let named = [Named {
+        spec,
+        case: "nominal",
+        filters,
+    }];
+    let mut all = vec![
+        summary::render(&rows).unwrap(),
+        render_runs(&named).unwrap(),
+        render_failures(&named).unwrap(),
+        render_paired(&named).unwrap(),
+    ];
+    all.extend(filters.iter().map(|f| epochs::render(spec, f).unwrap()));
+    String::from_utf8(all.concat()).unwrap()
+}
+
+fn row(filter: &FilterResult) -> SummaryRow {
+    SummaryRow::new("mock", "nominal", filter)
+}
+
+/// The errors of these runs, from the formula of the mock, over the scored samples 11 to 40.
+fn rms_norm(runs: impl Iterator<Item = i32>) -> f64 {
+    let mut squares = Vec::new();
+    for run in runs {
+        for count in 11..=40 {
+            squares.push((0..3).map(|axis| noise(run, count, axis).powi(2)).sum::<f64>());
+        }
+    }
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}
+
+fn near(value: Option<f64>, expected: f64) {
+    assert!(
+        (value.unwrap() / expected - 1.0).abs() < 1e-7,
+        "{value:?} instead of {expected}"
+    );
+}
+
+#[test]
+fn statistics_are_those_of_the_known_errors() {
+    let (_, filters) = study(spec(Quirk::None, &[("good", Quirk::None)]), 2);
+    let row = row(&filters[0]);
+    assert_eq!((row.runs, row.failed, row.diverged), (8, 0, 0));
+    near(row.pos_rmse_m, rms_norm(0..RUNS));
+    near(row.vel_rmse_m_s, rms_norm(0..RUNS));
+    // Six states of the same variance, position and velocity errors alike.
+    near(row.nees, 2.0 * rms_norm(0..RUNS).powi(2) / (SIGMA * SIGMA) / 6.0);
+    near(row.nis, 2.0);
+    let mut ratios: Vec<f64> = Vec::new();
+    for count in 11..=40 {
+        for axis in 0..3 {
+            let second = (0..RUNS).map(|run| noise(run, count, axis).powi(2)).sum::<f64>() / f64::from(RUNS);
+            ratios.push(SIGMA / second.sqrt());
+        }
+    }
+    ratios.sort_by(f64::total_cmp);
+    near(row.ratio_pos, 0.5 * (ratios[44] + ratios[45]));
+    assert_eq!(
+        (row.acc_rmse_m_s2, row.ratio_acc, row.nees_dimension),
+        (None, None, Some(6))
+    );
+}
+
+#[test]
+fn threads_scheme_and_step_change_no_byte() {
+    let base = || {
+        spec(
+            Quirk::Drops,
+            &[("good", Quirk::None), ("failing", Quirk::Fails { run: 3, time: 7.0 })],
+        )
+    };
+    let (s, f) = study(base(), 1);
+    let expected = files(&s, &f);
+    assert!(expected.contains("out of cheese"));
+    for jobs in [2, 5] {
+        let (s, f) = study(base(), jobs);
+        assert_eq!(files(&s, &f), expected, "{jobs} threads");
+    }
+    let healthy = || spec(Quirk::Drops, &[("good", Quirk::None), ("bare", Quirk::Bare)]);
+    let (s, f) = study(healthy(), 2);
+    let expected = files(&s, &f);
+    for scheme in [Scheme::GaussSeidel, Scheme::Jacobi] {
+        for step in [1.0, 0.25, 0.1] {
+            let (s, f) = study(
+                Spec {
+                    scheme,
+                    step,
+                    ..healthy()
+                },
+                2,
+            );
+            assert_eq!(files(&s, &f), expected, "{scheme:?} at {step} s");
+        }
+    }
+}
+
+#[test]
+fn a_long_step_scores_the_samples_that_are_left() {
+    let (_, filters) = study(
+        Spec {
+            step: 4.0,
+            ..spec(Quirk::None, &[("good", Quirk::None)])
+        },
+        1,
+    );
+    let runs = 0..RUNS;
+    let squares: Vec<f64> = runs
+        .flat_map(|run| {
+            (12..=40)
+                .step_by(4)
+                .map(move |count| (0..3).map(|a| noise(run, count, a).powi(2)).sum())
+        })
+        .collect();
+    near(
+        row(&filters[0]).pos_rmse_m,
+        (squares.iter().sum::<f64>() / squares.len() as f64).sqrt(),
+    );
+}
+
+#[test]
+fn a_failed_run_is_counted_and_leaves_the_others_alone() {
+    let quirks = [
+        ("good", Quirk::None),
+        ("failing", Quirk::Fails { run: 3, time: 7.0 }),
+        ("nan", Quirk::NotFinite { run: 2 }),
+        ("lying", Quirk::WrongTag),
+    ];
+    let (s, filters) = study(spec(Quirk::None, &quirks), 2);
+    let [good, failing, nan, lying] = [0, 1, 2, 3].map(|i| row(&filters[i]));
+    assert_eq!([good.failed, failing.failed, nan.failed, lying.failed], [0, 1, 1, 8]);
+    assert_eq!([good.runs, failing.runs, nan.runs, lying.runs], [8; 4]);
+    near(good.pos_rmse_m, rms_norm(0..RUNS));
+    near(failing.pos_rmse_m, rms_norm((0..RUNS).filter(|r| *r != 3)));
+    near(nan.pos_rmse_m, rms_norm((0..RUNS).filter(|r| *r != 2)));
+    assert_eq!(lying.pos_rmse_m, None);
+
+    let named = [Named {
+        spec: &s,
+        case: "nominal",
+        filters: &filters,
+    }];
+    let failures = String::from_utf8(render_failures(&named).unwrap()).unwrap();
+    let lines: Vec<&str> = failures.lines().collect();
+    assert_eq!(lines.len(), 1 + 1 + 1 + 8, "{failures}");
+    assert!(
+        lines[1].starts_with("mock,failing,nominal,1,3,6.0,") && lines[1].contains("out of cheese"),
+        "{failures}"
+    );
+    assert!(
+        lines[2].starts_with("mock,nan,nominal,1,2,8.0,") && lines[2].contains("NaN"),
+        "{failures}"
+    );
+    // Seven runs are left to compare with the first filter.
+    let paired = String::from_utf8(render_paired(&named).unwrap()).unwrap();
+    assert!(
+        paired.contains("mock,failing,good,nominal,pos_rmse_m,7,0.0,0.0"),
+        "{paired}"
+    );
+}
+
+#[test]
+fn a_failed_truth_fails_every_filter_of_that_run() {
+    let (_, filters) = study(
+        spec(
+            Quirk::Fails { run: 5, time: 20.0 },
+            &[("a", Quirk::None), ("b", Quirk::None)],
+        ),
+        2,
+    );
+    for filter in &filters {
+        assert_eq!(filter.failed(), 1);
+        let failure = filter.runs[5].failure.as_ref().unwrap();
+        assert!(failure.message.contains("fmu-truth"), "{failure:?}");
+        near(row(filter).pos_rmse_m, rms_norm((0..RUNS).filter(|r| *r != 5)));
+    }
+}
+
+#[test]
+fn diverged_runs_are_counted_and_stay_in_the_statistics() {
+    let quirks = [("says", Quirk::SaysDiverged { run: 1 }), ("is", Quirk::Lost { run: 4 })];
+    let (_, filters) = study(spec(Quirk::None, &quirks), 2);
+    assert_eq!((row(&filters[0]).diverged, row(&filters[1]).diverged), (1, 1));
+    assert!(filters[0].runs[1].diverged && filters[1].runs[4].diverged);
+    near(row(&filters[0]).pos_rmse_m, rms_norm(0..RUNS));
+    assert!(row(&filters[1]).pos_rmse_m.unwrap() > 200.0 / f64::from(RUNS).sqrt());
+}
+
+#[test]
+fn dropped_samples_do_not_enter_the_nis() {
+    let (_, filters) = study(spec(Quirk::Drops, &[("good", Quirk::None)]), 1);
+    near(row(&filters[0]).nis, 2.0);
+}
+
+#[test]
+fn a_bare_filter_is_scored_by_what_it_offers() {
+    let (_, filters) = study(spec(Quirk::None, &[("bare", Quirk::Bare)]), 1);
+    let row = row(&filters[0]);
+    near(row.pos_rmse_m, rms_norm(0..RUNS));
+    assert_eq!(
+        (row.ratio_pos, row.nees, row.nees_median, row.nis),
+        (None, None, None, None)
+    );
+    let text = String::from_utf8(summary::render(&[row]).unwrap()).unwrap();
+    assert!(!text.contains("NaN") && text.contains(",,"), "{text}");
+}
+
+#[test]
+fn what_cannot_work_is_told_before_the_first_run() {
+    let refused = |truth, filter| rehearse(&spec(truth, &[("theirs", filter)])).unwrap_err();
+    assert!(
+        rehearse(&spec(Quirk::None, &[("theirs", Quirk::None)]))
+            .unwrap()
+            .is_empty()
+    );
+    let error = refused(Quirk::None, Quirk::NoVelocity);
+    assert!(matches!(&error, HarnessError::MissingSignal { label, name } if label == "theirs" && name == "est.v_tc_n"));
+    let error = refused(Quirk::NoInitialEstimate, Quirk::None);
+    assert!(
+        matches!(&error, HarnessError::MissingInput { input, .. } if input == "nav_init.x[1]"),
+        "{error}"
+    );
+    let error = refused(Quirk::None, Quirk::Refuses);
+    assert!(
+        matches!(&error, HarnessError::Refused { label, .. } if label == "theirs"),
+        "{error}"
+    );
+    for (step, sample_period) in [(0.3, 1.0), (0.0, 1.0), (-1.0, 1.0), (1.0, f64::NAN), (1.5, 1.0)] {
+        let s = Spec {
+            step,
+            sample_period,
+            ..spec(Quirk::None, &[("theirs", Quirk::None)])
+        };
+        assert!(
+            matches!(rehearse(&s), Err(HarnessError::StepGrid { .. })),
+            "{step} {sample_period}"
+        );
+    }
+}
+
+#[test]
+fn samples_between_communication_points_fail_the_run() {
+    let (_, filters) = study(spec(Quirk::OffGrid, &[("good", Quirk::None)]), 1);
+    assert_eq!(filters[0].failed(), 8);
+    let message = &filters[0].runs[0].failure.as_ref().unwrap().message;
+    assert!(message.contains("1.5 s"), "{message}");
+}
+
+#[test]
+fn a_mapped_name_takes_the_place_of_ours() {
+    let mut mapped = spec(Quirk::None, &[("theirs", Quirk::NoVelocity)]);
+    let names = |axis: usize| (format!("their_v[{axis}]"), format!("est.v_tc_n[{axis}]"));
+    mapped.filters[0].aliases.extend((1..=3).map(names));
+    let (_, filters) = study(mapped, 1);
+    near(row(&filters[0]).vel_rmse_m_s, rms_norm(0..RUNS));
+}
