@@ -249,6 +249,9 @@ fn beliefs(t: &mut Builder) {
     belief(t, "gravity.j4", "1", Any, "fourth zonal harmonic", |b| {
         &mut b.gravity_j[2]
     });
+    belief(t, "gravity.mass_ratio", "1", Positive, "mass ratio of the three-body problem", |b| {
+        &mut b.gravity_mass_ratio
+    });
     let diverged = "the filter calls itself diverged when the running mean of NIS / 3 exceeds this";
     belief(t, "divergence.nis", "1", Positive, diverged, |b| &mut b.divergence_nis);
     t.integer("divergence.samples")

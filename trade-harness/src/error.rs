@@ -66,6 +66,14 @@ pub enum HarnessError {
         /// The option to use.
         option: &'static str,
     },
+    /// A value that a variable cannot take; the FMUs share names, so the message tells whose it is.
+    #[error("{model}: {source}")]
+    Value {
+        /// Model.
+        model: String,
+        /// Variable, value, and what would be allowed.
+        source: ImportError,
+    },
     /// `--set` of something that is no parameter.
     #[error("{model}.{variable} has causality '{causality}'; --set takes parameters only")]
     NotAParameter {

@@ -35,6 +35,8 @@ pub struct Beliefs {
     pub gravity_radius: f64,
     /// Zonal gravity: J2, J3, J4.
     pub gravity_j: [f64; 3],
+    /// Three-body gravity: mass ratio.
+    pub gravity_mass_ratio: f64,
     /// Mean normalised LiDAR NIS above which the filter calls itself diverged.
     pub divergence_nis: f64,
     /// Number of samples over which that mean is taken.
@@ -66,6 +68,7 @@ impl Default for Beliefs {
             gravity_mu: astro::earth::FILTER.mu,
             gravity_radius: astro::earth::FILTER.r_ref,
             gravity_j: [j2, j3, j4],
+            gravity_mass_ratio: astro::cr3bp::EARTH_MOON_MASS_RATIO,
             divergence_nis: 100.0,
             divergence_samples: 60,
         }

@@ -86,7 +86,7 @@ impl Dynamics {
         let (r_c, v_c) = (part(x, idx::R_C), part(x, idx::V_C));
         let (r_t, v_t) = (part(x, idx::R_TC) + r_c, part(x, idx::V_TC) + v_c);
         let vehicle = |r: &Vector3<f64>, v: &Vector3<f64>, third_on_v: Matrix3<f64>, third_decay: f64| {
-            let (by_r, by_v) = self.gravity.partials(r, v);
+            let (by_r, by_v) = self.gravity.partials(r);
             let mut a = TargetMatrix::zeros();
             a.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
             a.fixed_view_mut::<3, 3>(3, 0).copy_from(&by_r);

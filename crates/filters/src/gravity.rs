@@ -1,6 +1,6 @@
 //! The gravity models that filters propagate with.
 
-use astro::ZonalGravity;
+use astro::{Cr3bp, ZonalGravity};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -9,20 +9,24 @@ use serde::{Deserialize, Serialize};
 pub enum Gravity {
     /// Two-body attraction and zonal harmonics, inertial axes.
     Zonal(ZonalGravity),
+    /// Circular restricted three-body problem, rotating axes, nondimensional.
+    Cr3bp(Cr3bp),
 }
 
 impl Gravity {
     /// Acceleration at position `r` and velocity `v`; the velocity matters in rotating axes only.
-    pub fn acceleration(&self, r: &Vector3<f64>, _v: &Vector3<f64>) -> Vector3<f64> {
+    pub fn acceleration(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
         match self {
             Self::Zonal(zonal) => zonal.acceleration(r),
+            Self::Cr3bp(cr3bp) => cr3bp.acceleration(r, v),
         }
     }
 
     /// Partials of the acceleration by position and by velocity, 3x3 each.
-    pub fn partials(&self, r: &Vector3<f64>, _v: &Vector3<f64>) -> (Matrix3<f64>, Matrix3<f64>) {
+    pub fn partials(&self, r: &Vector3<f64>) -> (Matrix3<f64>, Matrix3<f64>) {
         match self {
             Self::Zonal(zonal) => (zonal.gradient(r), Matrix3::zeros()),
+            Self::Cr3bp(cr3bp) => cr3bp.partials(r),
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::initial::InitialSigma;
 use crate::{Params, Push, Timeline, TruthError, Vehicles, worlds};
 
 /// Every world, in the order of the FMU's `scenario` enumeration. To add one: a file under `worlds/` and a line here.
-pub const WORLDS: &[WorldEntry] = &[worlds::leo_venting::ENTRY];
+pub const WORLDS: &[WorldEntry] = &[worlds::leo_venting::ENTRY, worlds::nrho_venting::ENTRY];
 
 /// One line of [`WORLDS`].
 #[derive(Clone, Copy)]

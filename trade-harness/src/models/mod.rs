@@ -239,7 +239,11 @@ impl<'a> StartValues<'a> {
 
     /// Sets a variable by its own name; the last value of a name counts.
     fn set(&mut self, name: &str, text: &str) -> Result<(), HarnessError> {
-        let value = self.model.description().variable(name)?.parse_value(text)?;
+        let variable = self.model.description().variable(name)?;
+        let value = variable.parse_value(text).map_err(|source| HarnessError::Value {
+            model: self.model.name.clone(),
+            source,
+        })?;
         self.values.retain(|(n, _)| n != name);
         self.values.push((name.to_owned(), value));
         Ok(())

@@ -1,6 +1,6 @@
 //! Rendezvous in low Earth orbit with a target that vents.
 
-use super::{Bound, Scenario, Signal, Signals, target_rtn};
+use super::{Bound, Scenario, VENTING_SIGNALS};
 
 const RATIO: &str = "estimated and sample 3 sigma of relative position nearly overlay (Fig. 1)";
 const OVER: &str = "velocity and acceleration are over-estimated (Figs. 2 and 3)";
@@ -11,34 +11,7 @@ pub(super) const SCENARIO: Scenario = Scenario {
     reference: "Mamich and Zanetti, Sec. IV, Tables 1-4, Figs. 1-6",
     duration: 5680.0,
     scored_from: 300.0,
-    signals: Signals {
-        position: Signal {
-            truth: "truth.r_tc_n",
-            estimate: "est.r_tc_n",
-        },
-        velocity: Signal {
-            truth: "truth.v_tc_n",
-            estimate: "est.v_tc_n",
-        },
-        acceleration: Signal {
-            truth: "truth.a_t_n",
-            estimate: "est.a_t_n",
-        },
-        bias: Some(Signal {
-            truth: "truth.b_c_bc",
-            estimate: "est.b_c_bc",
-        }),
-        chaser: Some(["truth.r_c_n", "truth.v_c_n"]),
-        measurement_valid: "lidar.valid",
-        residual: [
-            ("innov.range", "m"),
-            ("innov.azimuth", "rad"),
-            ("innov.elevation", "rad"),
-        ],
-        nis_rows: 3,
-        axes: ["r", "t", "n"],
-        report_axes: target_rtn,
-    },
+    signals: VENTING_SIGNALS,
     bounds: &[
         Bound {
             filter: "milton",

@@ -4,14 +4,15 @@
 //! A scenario is one file here and one line in [`SCENARIOS`]; the FMUs' `scenario` enumeration has the item of its name.
 
 mod leo_venting;
+mod nrho_venting;
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::HarnessError;
 use crate::signals::TruthSample;
 
 /// Every scenario, in the order lists show them.
-pub const SCENARIOS: &[Scenario] = &[leo_venting::SCENARIO];
+pub const SCENARIOS: &[Scenario] = &[leo_venting::SCENARIO, nrho_venting::SCENARIO];
 
 /// One world.
 #[derive(Debug)]
@@ -94,6 +95,36 @@ impl Bound {
     }
 }
 
+/// What the venting worlds have in common: range and angles to a target, results in RTN.
+const VENTING_SIGNALS: Signals = Signals {
+    position: Signal {
+        truth: "truth.r_tc_n",
+        estimate: "est.r_tc_n",
+    },
+    velocity: Signal {
+        truth: "truth.v_tc_n",
+        estimate: "est.v_tc_n",
+    },
+    acceleration: Signal {
+        truth: "truth.a_t_n",
+        estimate: "est.a_t_n",
+    },
+    bias: Some(Signal {
+        truth: "truth.b_c_bc",
+        estimate: "est.b_c_bc",
+    }),
+    chaser: Some(["truth.r_c_n", "truth.v_c_n"]),
+    measurement_valid: "lidar.valid",
+    residual: [
+        ("innov.range", "m"),
+        ("innov.azimuth", "rad"),
+        ("innov.elevation", "rad"),
+    ],
+    nis_rows: 3,
+    axes: ["r", "t", "n"],
+    report_axes: target_rtn,
+};
+
 /// The scenario of this name.
 ///
 /// # Errors
@@ -113,11 +144,19 @@ pub fn find(name: &str) -> Result<&'static Scenario, HarnessError> {
 /// Position and velocity of the target are those of the chaser plus the relative ones, in inertial axes about the
 /// central body. `None` without the chaser's state or where position and velocity are parallel.
 pub fn target_rtn(truth: &TruthSample) -> Option<Matrix3<f64>> {
+    let (r_t, v_t) = target(truth)?;
+    rtn(&r_t, &v_t)
+}
+
+/// Position and velocity of the target; `None` without the chaser's.
+fn target(truth: &TruthSample) -> Option<(Vector3<f64>, Vector3<f64>)> {
     let (r_c, v_c) = truth.chaser?;
-    let r = r_c + truth.position;
-    let v = v_c + truth.velocity;
+    Some((r_c + truth.position, v_c + truth.velocity))
+}
+
+fn rtn(r: &Vector3<f64>, v: &Vector3<f64>) -> Option<Matrix3<f64>> {
     let radial = r.try_normalize(0.0)?;
-    let normal = r.cross(&v).try_normalize(0.0)?;
+    let normal = r.cross(v).try_normalize(0.0)?;
     let transverse = normal.cross(&radial);
     Some(Matrix3::from_rows(&[
         radial.transpose(),
@@ -129,7 +168,6 @@ pub fn target_rtn(truth: &TruthSample) -> Option<Matrix3<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Vector3;
 
     #[test]
     fn every_scenario_is_found_by_its_name_and_scores_something() {

@@ -1,6 +1,7 @@
 //! What a filter believes of each world. A scenario is one file with an `ENTRY` and one line in [`SCENARIOS`].
 
 mod leo_venting;
+mod nrho_venting;
 
 use crate::{Beliefs, FilterError, Gravity, Units};
 
@@ -21,7 +22,7 @@ pub struct ScenarioEntry {
 }
 
 /// Every scenario, in the order of the FMU's enumeration.
-pub const SCENARIOS: &[ScenarioEntry] = &[leo_venting::ENTRY];
+pub const SCENARIOS: &[ScenarioEntry] = &[leo_venting::ENTRY, nrho_venting::ENTRY];
 
 impl ScenarioEntry {
     /// `value`, or the scenario's own when it is left at -1.

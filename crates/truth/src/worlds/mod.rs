@@ -1,3 +1,4 @@
 //! One file per world.
 
 pub(crate) mod leo_venting;
+pub(crate) mod nrho_venting;

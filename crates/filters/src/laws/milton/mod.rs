@@ -239,3 +239,281 @@ impl Adaptation for Milton {
         self.skipped
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::Law;
+    use crate::state::{LidarRows, Target};
+    use crate::tunable::{Tunables, Value};
+    use crate::units::Units;
+    use nalgebra::{DMatrix, DVector};
+    use numerics::{Generator, expm};
+
+    const M_B: usize = 4;
+
+    fn normal(g: &mut Generator) -> f64 {
+        StandardNormal.sample(g)
+    }
+
+    #[derive(Clone, Copy)]
+    struct Tuning {
+        residuals: usize,
+        linearisation: usize,
+        whiten: bool,
+        r_w: f64,
+        q_w: f64,
+        psi0: f64,
+        s0: f64,
+    }
+
+    const TUNING: Tuning = Tuning {
+        residuals: 0,
+        linearisation: 0,
+        whiten: false,
+        r_w: 2.0,
+        q_w: 0.03,
+        psi0: 0.2,
+        s0: 0.7,
+    };
+
+    fn law(tuning: Tuning, r: Matrix3<f64>, run: u64) -> Milton {
+        let values = [
+            Value::Integer(M_B as i32),
+            Value::Choice(tuning.residuals),
+            Value::Choice(tuning.linearisation),
+            Value::Boolean(tuning.whiten),
+            Value::Real(tuning.r_w),
+            Value::Real(tuning.q_w),
+            Value::Real(tuning.psi0),
+            Value::Real(tuning.s0),
+        ];
+        let built = (ENTRY.build)(&Setup {
+            tunables: Tunables {
+                law: ENTRY.name,
+                declared: ENTRY.tunables,
+                values: &values,
+                scenario: "none",
+                defaults: &[],
+            },
+            r,
+            units: Units::SI,
+            study_seed: 1,
+            run,
+        });
+        match built.unwrap() {
+            Law::Milton(law) => *law,
+            other => panic!("built {other:?}"),
+        }
+    }
+
+    /// Samples of three integrators seen through rows that turn, corrected by arbitrary amounts.
+    fn steps(g: &mut Generator, count: usize) -> Vec<Step> {
+        let mut a = TargetMatrix::zeros();
+        (0..6).for_each(|i| a[(i, i + 3)] = 1.0);
+        let f = expm(&a);
+        (0..count)
+            .map(|_| {
+                let mut h = LidarRows::zeros();
+                h.fixed_columns_mut::<3>(0)
+                    .iter_mut()
+                    .for_each(|entry| *entry = normal(g));
+                Step {
+                    dt: 1.0,
+                    f,
+                    h,
+                    innovation: Vector3::from_fn(|_, _| normal(g)),
+                    correction: Target::from_fn(|_, _| 0.1 * normal(g)),
+                }
+            })
+            .collect()
+    }
+
+    fn fed(mut law: Milton, steps: impl IntoIterator<Item = Step>) -> Milton {
+        steps.into_iter().for_each(|step| law.observe(step).unwrap());
+        law
+    }
+
+    /// The recursion against least squares with a gain, the form that Eq. (29) rewrites.
+    #[test]
+    fn information_form_is_recursive_least_squares() {
+        for linearisation in [0, 1] {
+            let g = &mut stream(21, 0, Source::Lidar);
+            let mut ours = law(
+                Tuning {
+                    linearisation,
+                    ..TUNING
+                },
+                Matrix3::identity(),
+                0,
+            );
+            let mut s = DVector::from_column_slice(ours.s.as_slice());
+            let mut psi = DMatrix::identity(3, 3) * TUNING.psi0;
+            for update in 1..=4 {
+                let d = DMatrix::from_fn(20, 3, |_, _| normal(g));
+                let c = DVector::from_fn(20, |_, _| normal(g));
+                let (dt_d, dt_c) = (d.transpose() * &d, d.transpose() * &c);
+                let regression = Regression {
+                    dt_d: Matrix3::from_fn(|i, j| dt_d[(i, j)]),
+                    dt_c: Vector3::from_fn(|i, _| dt_c[i]),
+                };
+                ours.learn(&regression).unwrap();
+
+                psi += DMatrix::identity(3, 3) * TUNING.q_w;
+                let slope = &d * DMatrix::from_diagonal(&(&s * 2.0));
+                let measured = if linearisation == 1 {
+                    &c + &d * s.component_mul(&s)
+                } else {
+                    c
+                };
+                let spread = &slope * &psi * slope.transpose() + DMatrix::identity(20, 20) * TUNING.r_w;
+                let gain = &psi * slope.transpose() * spread.try_inverse().unwrap();
+                s += &gain * (measured - &slope * &s);
+                psi = (DMatrix::identity(3, 3) - gain * slope) * psi;
+                let known = DMatrix::from_fn(3, 3, |i, j| ours.information[(i, j)])
+                    .try_inverse()
+                    .unwrap();
+                for i in 0..3 {
+                    assert!(
+                        (ours.s[i] - s[i]).abs() < 1e-9,
+                        "update {update}: {} and {}",
+                        ours.s[i],
+                        s[i]
+                    );
+                }
+                assert!((known - &psi).amax() < 1e-10, "update {update}");
+            }
+        }
+    }
+
+    /// Fed exact correlations of a density q without end, the consistent law finds q and the printed one half of it.
+    #[test]
+    fn printed_linearisation_settles_at_half_the_density() {
+        let q = Vector3::new(0.3, 1.0, 2.0);
+        let dt_d = Matrix3::new(2.0, 0.3, 0.1, 0.3, 1.5, 0.2, 0.1, 0.2, 1.0);
+        for (linearisation, share) in [(0, 0.5), (1, 1.0)] {
+            let mut ours = law(
+                Tuning {
+                    linearisation,
+                    ..TUNING
+                },
+                Matrix3::identity(),
+                3,
+            );
+            for _ in 0..3000 {
+                ours.learn(&Regression { dt_d, dt_c: dt_d * q }).unwrap();
+            }
+            let found = ours.s.component_mul(&ours.s);
+            assert!((found - q * share).amax() < 1e-9, "{found}");
+        }
+    }
+
+    #[test]
+    fn updates_wait_for_a_whole_set_of_new_samples() {
+        let g = &mut stream(22, 0, Source::Lidar);
+        let mut ours = law(TUNING, Matrix3::identity(), 0);
+        let mut seen = Vec::new();
+        for (k, step) in (1..).zip(steps(g, 40)) {
+            let before = (ours.s, ours.updates);
+            ours.observe(step).unwrap();
+            if ours.updates > before.1 {
+                seen.push(k);
+            } else {
+                assert_eq!(ours.s, before.0);
+            }
+        }
+        // 2 m_b + 1 residuals make the first, m_b + 1 new ones every other.
+        assert_eq!(seen, [9, 14, 19, 24, 29, 34, 39]);
+        assert_eq!(ours.skipped(), 0);
+    }
+
+    #[test]
+    fn a_blind_window_is_passed_by_and_counted() {
+        let g = &mut stream(23, 0, Source::Lidar);
+        let blind = steps(g, 2 * M_B + 1).into_iter().map(|step| Step {
+            h: LidarRows::zeros(),
+            innovation: Vector3::zeros(),
+            ..step
+        });
+        let start = law(TUNING, Matrix3::identity(), 0);
+        let ours = fed(start.clone(), blind);
+        assert_eq!((ours.updates(), ours.skipped(), ours.s), (0, 1, start.s));
+        let later = fed(ours, steps(g, 3 * M_B));
+        assert!(later.updates() > 0, "it goes on once the target is seen again");
+    }
+
+    /// What `residuals` chooses: whether the filter's corrections are undone before the correlation is taken.
+    #[test]
+    fn consistent_residuals_are_the_innovations_of_a_filter_that_never_corrects() {
+        let recorded = steps(&mut stream(24, 0, Source::Lidar), 2 * M_B + 1);
+        let sampled: Vec<Sampled> = recorded
+            .iter()
+            .map(|s| Sampled {
+                dt: s.dt,
+                f: s.f,
+                h: s.h,
+                residual: s.innovation,
+                correction: s.correction,
+            })
+            .collect();
+        let restored = correlation::open_loop_residuals(&sampled);
+        let uncorrected = |innovation: Option<&Vector3<f64>>, step: &Step| Step {
+            innovation: *innovation.unwrap_or(&step.innovation),
+            correction: Target::zeros(),
+            ..step.clone()
+        };
+        let r = Matrix3::identity() * 0.5;
+        let printed = law(TUNING, r, 0);
+        let consistent = law(Tuning { residuals: 1, ..TUNING }, r, 0);
+        let as_recorded = fed(printed.clone(), recorded.clone()).s;
+        let blind_to_corrections = fed(printed.clone(), recorded.iter().map(|s| uncorrected(None, s))).s;
+        assert_eq!(as_recorded, blind_to_corrections);
+        let undone = fed(consistent, recorded.clone()).s;
+        let by_hand = fed(
+            printed,
+            recorded.iter().zip(&restored).map(|(s, z)| uncorrected(Some(z), s)),
+        )
+        .s;
+        assert!(
+            (undone - by_hand).amax() < 1e-9 * by_hand.amax(),
+            "{undone} and {by_hand}"
+        );
+        assert!((undone - as_recorded).amax() > 1e-3);
+    }
+
+    /// Whitened, the law does not see in which unit a row was measured; as printed it does.
+    #[test]
+    fn whitening_takes_out_the_units_of_the_rows() {
+        let recorded = steps(&mut stream(25, 0, Source::Lidar), 3 * M_B);
+        let r = Matrix3::from_diagonal(&Vector3::new(0.5, 0.02, 0.3));
+        let units = Matrix3::from_diagonal(&Vector3::new(10.0, 0.1, 3.0));
+        for whiten in [true, false] {
+            let tuning = Tuning { whiten, ..TUNING };
+            let plain = fed(law(tuning, r, 0), recorded.clone()).s;
+            let rescaled = recorded.iter().map(|s| Step {
+                h: units * s.h,
+                innovation: units * s.innovation,
+                ..s.clone()
+            });
+            let other = fed(law(tuning, units * r * units, 0), rescaled).s;
+            let same = (plain - other).amax() < 1e-8 * plain.amax();
+            assert_eq!(same, whiten, "{plain} and {other}");
+        }
+    }
+
+    #[test]
+    fn s_starts_about_its_mean_with_the_variance_psi0() {
+        let runs = 2000;
+        let (mut mean, mut square) = (Vector3::zeros(), Vector3::zeros());
+        for run in 0..runs {
+            let e = law(TUNING, Matrix3::identity(), run).s.add_scalar(-TUNING.s0) / TUNING.psi0.sqrt();
+            mean += e / runs as f64;
+            square += e.component_mul(&e) / runs as f64;
+        }
+        let n = runs as f64;
+        for axis in 0..3 {
+            assert!(mean[axis].abs() < 3.5 / n.sqrt(), "{mean}");
+            assert!((square[axis] - 1.0).abs() < 3.5 * (2.0 / n).sqrt(), "{square}");
+        }
+    }
+}
