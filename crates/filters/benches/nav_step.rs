@@ -67,7 +67,7 @@ fn benches(c: &mut Criterion) {
             *value = Value::Integer(m_b);
         }
         group.bench_function(format!("milton m_b={m_b}"), |b| {
-            b.iter(|| run(black_box(&settings), &samples, &start))
+            per_step(b, &settings, &samples, &start)
         });
     }
     group.finish();

@@ -147,9 +147,27 @@ impl Dynamics {
     ) -> StateMatrix {
         let f = self.transition(&est.x, dt, thrust);
         est.x = self.propagate_mean(&est.x, dt, thrust);
-        est.p = spd::symmetrised(&(f * est.p * f.transpose())) + self.process_noise(q_target, dt);
+        est.p = spd::symmetrised(&carried(&f, &est.p)) + self.process_noise(q_target, dt);
         f
     }
+}
+
+/// F P F^T for F = [T D; 0 C] in 9x9 blocks, as [`Dynamics::transition`] makes it: nothing of the chaser's comes from the
+/// target, and of the two off-diagonal blocks of a covariance one is enough.
+fn carried(f: &StateMatrix, p: &StateMatrix) -> StateMatrix {
+    let block = |m: &StateMatrix, i: usize, j: usize| m.fixed_view::<9, 9>(9 * i, 9 * j).into_owned();
+    let (t, d, c) = (block(f, 0, 0), block(f, 0, 1), block(f, 1, 1));
+    let (p_tc, p_cc) = (block(p, 0, 1), block(p, 1, 1));
+    let on_target = t * block(p, 0, 0) + d * p_tc.transpose();
+    let on_chaser = t * p_tc + d * p_cc;
+    let cross = on_chaser * c.transpose();
+    let mut out = StateMatrix::zeros();
+    out.fixed_view_mut::<9, 9>(0, 0)
+        .copy_from(&(on_target * t.transpose() + on_chaser * d.transpose()));
+    out.fixed_view_mut::<9, 9>(0, 9).copy_from(&cross);
+    out.fixed_view_mut::<9, 9>(9, 0).copy_from(&cross.transpose());
+    out.fixed_view_mut::<9, 9>(9, 9).copy_from(&(c * p_cc * c.transpose()));
+    out
 }
 
 /// Measurement rows: H, the innovation and the noise variances of M measurements.
@@ -188,11 +206,10 @@ pub fn update<const M: usize>(est: &mut Gaussian, m: &Measurement<M>) -> Result<
         k.set_row(row, &spd::cholesky_solve(&l, &hp.column(row).into_owned()).transpose());
     }
     est.x += k * m.innovation;
-    // (I - K H) P (I - K H)^T + K R K^T with the products in the order that never forms a full 18^3 one.
+    // (I - K H) P (I - K H)^T + K R K^T as L - (L H^T - K R) K^T with L = (I - K H) P: no full 18^3 product.
     let left = est.p - k * hp;
-    let joseph = left - (left * m.h.transpose()) * k.transpose();
-    let noise = k * SMatrix::<f64, M, M>::from_diagonal(&m.r) * k.transpose();
-    est.p = spd::symmetrised(&(joseph + noise));
+    let k_r = SMatrix::<f64, N, M>::from_fn(|i, j| k[(i, j)] * m.r[j]);
+    est.p = spd::symmetrised(&(left - (left * m.h.transpose() - k_r) * k.transpose()));
     Ok(s)
 }
 

@@ -101,6 +101,14 @@ pub enum FilterError {
         /// Epoch, s.
         t_s: f64,
     },
+    /// Rounding has made a variance negative.
+    #[error("at t = {t_s} s the variance of state {state} of 18 (order of nav_init.x) has become negative")]
+    NegativeVariance {
+        /// Epoch, s.
+        t_s: f64,
+        /// Which state, from 1, in the order of `nav_init.x`.
+        state: usize,
+    },
     /// The information matrix of an adaptation could not be inverted.
     #[error("{law}: the information matrix of the adaptation is not positive definite at update {update}")]
     InformationNotSpd {

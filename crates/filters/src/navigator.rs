@@ -315,6 +315,10 @@ impl Navigator {
         if !(core.x.iter().all(|v| v.is_finite()) && core.p.iter().all(|v| v.is_finite())) {
             return Err(FilterError::NotFinite { t_s });
         }
+        // Zero is legal: a law without an acceleration state has no variance there.
+        if let Some(state) = (0..N).find(|i| core.p[(*i, *i)] < 0.0) {
+            return Err(FilterError::NegativeVariance { t_s, state: state + 1 });
+        }
         self.law.observe(Step {
             dt: gap_s / self.units.time,
             f,
@@ -462,7 +466,7 @@ impl Navigator {
             count: sample.count,
             x: core.x.component_mul(&unit),
             p_target: TargetMatrix::from_fn(|i, j| core.p[(i, j)] * unit[i] * unit[j]),
-            sigma: State::from_fn(|i, _| core.p[(i, i)].max(0.0).sqrt() * unit[i]),
+            sigma: State::from_fn(|i, _| core.p[(i, i)].sqrt() * unit[i]),
         };
     }
 

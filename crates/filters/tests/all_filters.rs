@@ -65,7 +65,7 @@ fn every_filter_keeps_its_covariance_positive_and_follows_the_target() {
 #[test]
 fn fixed_q_is_consistent_in_its_own_world() {
     let (runs, s) = (40, 3e-5);
-    let (mut nees_sum, mut nis_sum, mut samples) = (0.0, 0.0, 0.0);
+    let (mut nees_sum, mut nis_sum, mut bias_sum, mut samples) = (0.0, 0.0, 0.0, 0.0);
     for run in 0..runs {
         let (mut world, start) = OwnWorld::new(run, s);
         let mut chosen = settings("fixed_q", run);
@@ -77,6 +77,8 @@ fn fixed_q_is_consistent_in_its_own_world() {
             samples += 1.0;
         }
         nees_sum += nees(&nav, &world.x);
+        let bias = (nav.estimate().x - world.x).component_div(&nav.estimate().sigma);
+        bias_sum += bias.fixed_rows::<3>(15).norm_squared() / 3.0;
     }
     // Chi-square with 9 and 3 degrees of freedom: three standard errors of the mean.
     let (nees, nis) = (nees_sum / runs as f64, nis_sum / samples);
@@ -85,6 +87,11 @@ fn fixed_q_is_consistent_in_its_own_world() {
         "NEES {nees}"
     );
     assert!((nis - 1.0).abs() < 3.0 * (2.0_f64 / 3.0 / samples).sqrt(), "NIS {nis}");
+    let bias = bias_sum / runs as f64;
+    assert!(
+        (bias - 1.0).abs() < 3.0 * (2.0_f64 / 3.0 / runs as f64).sqrt(),
+        "bias {bias}"
+    );
 }
 
 #[test]

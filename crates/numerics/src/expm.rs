@@ -4,8 +4,8 @@ use nalgebra::SMatrix;
 
 /// exp(`a`) by scaling, a Taylor series summed to rounding, and squaring.
 ///
-/// Meant for `a = A dt` of an estimator: small in all but a few entries, so the series ends after a handful of terms and
-/// nothing is inverted.
+/// Meant for `a = A dt` of an estimator: small, so the series ends after a handful of terms and nothing is inverted, and
+/// mostly zero, so each term takes only the entries that are not.
 ///
 /// * `a`: N x N, finite.
 /// * returns: N x N; every entry is NaN when `a` is not finite.
@@ -24,7 +24,14 @@ pub fn expm<const N: usize>(a: &SMatrix<f64, N, N>) -> SMatrix<f64, N, N> {
     let mut sum = SMatrix::<f64, N, N>::identity();
     let mut term = sum;
     for k in 1..40 {
-        term = term * scaled / f64::from(k);
+        let mut next = SMatrix::<f64, N, N>::zeros();
+        for j in 0..N {
+            for i in (0..N).filter(|i| scaled[(*i, j)] != 0.0) {
+                next.column_mut(j)
+                    .axpy(scaled[(i, j)] / f64::from(k), &term.column(i), 1.0);
+            }
+        }
+        term = next;
         sum += term;
         if term.amax() <= f64::EPSILON * 1e-3 {
             break;

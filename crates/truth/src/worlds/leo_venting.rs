@@ -170,7 +170,14 @@ mod tests {
     fn approach_is_the_one_the_paper_plots() {
         let mut path = Vec::new();
         let params = Params::default();
-        run_forward(&params, |state| path.push(*state));
+        let end = run_forward(&params, |state| path.push(*state));
+        // One metre off along every axis and at rest, on a circular orbit that has just crossed the node at 15 degrees.
+        assert!((end.r_tc() + Vector3::repeat(1.0)).amax() < 1e-6, "{}", end.r_tc());
+        assert!(end.v_tc().amax() < 1e-9, "{}", end.v_tc());
+        let (sin, cos) = 15.0_f64.to_radians().sin_cos();
+        let circular = Vector3::new(0.0, cos, sin) * (3.986e14_f64 / 6.878e6).sqrt();
+        assert!((end.r_t - Vector3::new(6.878e6, 0.0, 0.0)).norm() < 1.0, "{}", end.r_t);
+        assert!((end.v_t - circular).norm() < 1e-2, "{}", end.v_t);
         // The burn of 30 s at 1e-2 m/s2 takes out an approach speed of 0.3 m/s.
         assert!((path[5560].v_tc().norm() - 0.3).abs() < 1e-3, "{}", path[5560].v_tc());
         // After it the relative motion is what gravity gives two points 1.7 m apart: n^2 * 1.7 m * 90 s = 0.2 mm/s.

@@ -17,7 +17,7 @@
 
 use crate::jerk;
 use crate::state::{LidarRows, N_TARGET, Target, TargetMatrix};
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{DMatrix, Matrix3, SMatrix, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
@@ -80,106 +80,100 @@ pub fn open_loop_residuals(samples: &[Sampled]) -> Vec<Vector3<f64>> {
 ///
 /// * `rows`: O, one 3x9 block for each sample.
 /// * returns: M^-1 O^T as one 9x3 block for each sample, or `None` when the window does not observe all nine states.
-fn pseudo_inverse(mut rows: Vec<LidarRows>) -> Option<Vec<Gain>> {
+fn pseudo_inverse(rows: &VecDeque<LidarRows>) -> Option<Vec<Gain>> {
+    let mut q = DMatrix::from_fn(3 * rows.len(), N_TARGET, |i, j| rows[i / 3][(i % 3, j)]);
     let mut r = TargetMatrix::zeros();
-    // Gram-Schmidt, each column orthogonalised twice: as accurate as Householder and as short as the definition.
+    // O = Q R by Gram-Schmidt, each column orthogonalised twice: as accurate as Householder and as short as the definition.
     for j in 0..N_TARGET {
-        let length = rows.iter().map(|q| q.column(j).norm_squared()).sum::<f64>().sqrt();
+        let length = q.column(j).norm();
         for _ in 0..2 {
             for i in 0..j {
-                let dot = rows.iter().map(|q| q.column(i).dot(&q.column(j))).sum::<f64>();
+                let (done, mut column) = q.columns_range_pair_mut(i, j);
+                let dot = done.dot(&column);
                 r[(i, j)] += dot;
-                for q in rows.iter_mut() {
-                    for row in 0..3 {
-                        q[(row, j)] -= dot * q[(row, i)];
-                    }
-                }
+                column.axpy(-dot, &done, 1.0);
             }
         }
-        let rest = rows.iter().map(|q| q.column(j).norm_squared()).sum::<f64>().sqrt();
+        let rest = q.column(j).norm();
         // Below this nothing but rounding is left of the column.
         if rest.is_nan() || rest <= 1e-13 * length {
             return None;
         }
         r[(j, j)] = rest;
-        for q in rows.iter_mut() {
-            for row in 0..3 {
-                q[(row, j)] /= rest;
-            }
-        }
+        q.column_mut(j).unscale_mut(rest);
     }
-    // R x = Q^T, one sample's block at a time.
-    let solve = |q: &LidarRows| {
-        let mut x = q.transpose();
-        for i in (0..N_TARGET).rev() {
-            for k in i + 1..N_TARGET {
-                for row in 0..3 {
-                    x[(i, row)] -= r[(i, k)] * x[(k, row)];
-                }
-            }
-            for row in 0..3 {
-                x[(i, row)] /= r[(i, i)];
-            }
+    // R X = Q^T from its last row up; the rows of X take the place of the columns of Q.
+    for i in (0..N_TARGET).rev() {
+        for k in i + 1..N_TARGET {
+            let (mut row, solved) = q.columns_range_pair_mut(i, k);
+            row.axpy(-r[(i, k)], &solved, 1.0);
         }
-        x
-    };
-    Some(rows.iter().map(solve).collect())
+        q.column_mut(i).unscale_mut(r[(i, i)]);
+    }
+    let gain = |sample: usize| Gain::from_fn(|i, row| q[(3 * sample + row, i)]);
+    Some((0..rows.len()).map(gain).collect())
 }
 
-/// Every difference Z_w, w = 0..=m_b; their `a` and `z` are whole, their `b` starts at step `b_from`.
+/// Pseudo-inverses of the least-squares windows that start at samples 0..=m_b+1.
 ///
 /// * `samples`: 2 m_b + 1, oldest first.
-/// * `residuals`: one for each.
-/// * `b_from`: coefficients of process noise before this step are not needed and left out of `b`.
-/// * returns: the differences, or `None` when a window is singular.
-fn differences(samples: &[Sampled], residuals: &[Vector3<f64>], m_b: usize, b_from: usize) -> Option<Vec<Difference>> {
-    // Least-squares windows start at 0..=m_b+1. Going backwards, each inherits the rows H_l Phi_{l,start} of the one after
-    // it times one transition.
+/// * returns: for each window one block per sample, or `None` when a window is singular.
+fn window_gains(samples: &[Sampled], m_b: usize) -> Option<Vec<Vec<Gain>>> {
+    // Going backwards, each window inherits the rows H_l Phi_{l,start} of the one after it times one transition.
     let mut gains = vec![Vec::new(); m_b + 2];
-    let mut rows = VecDeque::with_capacity(m_b + 1);
+    let mut rows: VecDeque<LidarRows> = VecDeque::with_capacity(m_b + 1);
     for start in (0..samples.len()).rev() {
-        if start + 1 < samples.len() {
-            rows.iter_mut()
-                .for_each(|row: &mut LidarRows| *row *= samples[start + 1].f);
+        if let Some(next) = samples.get(start + 1) {
+            rows.iter_mut().for_each(|row| *row *= next.f);
         }
         rows.push_front(samples[start].h);
         rows.truncate(m_b);
         if start <= m_b + 1 {
-            gains[start] = pseudo_inverse(rows.iter().copied().collect())?;
+            gains[start] = pseudo_inverse(&rows)?;
         }
     }
-    let mut out = Vec::with_capacity(m_b + 1);
-    for w in 0..=m_b {
-        let f = &samples[w + 1].f;
-        let newer = &gains[w + 1];
-        let older: Vec<Gain> = gains[w].iter().map(|g| f * g).collect();
-        let mut a = vec![Gain::zeros(); m_b + 1];
-        for (i, gain) in newer.iter().enumerate() {
-            a[i + 1] += gain;
-        }
-        for (i, gain) in older.iter().enumerate() {
-            a[i] -= gain;
-        }
-        let z = a
-            .iter()
-            .zip(&residuals[w..])
-            .fold(Target::zeros(), |z, (a, y)| z + a * y);
-        // What a window makes of an error e at sample j that enters there: sum over l >= j of its gain times
-        // H_l Phi_{l,j}. The difference of both windows' answers to nu_j at sample j + 1 is B_w[j]; A holds that
-        // difference of gains, but for the older window's first sample, which precedes every nu_j.
-        let first_step = b_from.max(w);
-        let mut b = vec![TargetMatrix::zeros(); w + m_b - first_step];
-        let mut seen = TargetMatrix::zeros();
-        for j in (first_step..w + m_b).rev() {
-            if j + 2 <= w + m_b {
-                seen *= samples[j + 2].f;
-            }
-            seen += a[j + 1 - w] * samples[j + 1].h;
-            b[j - first_step] = seen;
-        }
-        out.push(Difference { first: w, z, a, b });
+    Some(gains)
+}
+
+/// The difference Z_w; its `a` and `z` are whole, its `b` starts at step `b_from`.
+///
+/// * `samples`: 2 m_b + 1, oldest first.
+/// * `residuals`: one for each.
+/// * `gains`: of every window, from [`window_gains`].
+/// * `w`: first sample of the older window, 0..=m_b.
+/// * `b_from`: coefficients of process noise before this step are not needed and left out of `b`.
+fn difference(
+    samples: &[Sampled],
+    residuals: &[Vector3<f64>],
+    gains: &[Vec<Gain>],
+    w: usize,
+    b_from: usize,
+) -> Difference {
+    let m_b = gains[w].len();
+    let f = &samples[w + 1].f;
+    let mut a = vec![Gain::zeros(); m_b + 1];
+    for (i, (older, newer)) in gains[w].iter().zip(&gains[w + 1]).enumerate() {
+        a[i] -= f * older;
+        a[i + 1] += newer;
     }
-    Some(out)
+    let z = a
+        .iter()
+        .zip(&residuals[w..])
+        .fold(Target::zeros(), |z, (a, y)| z + a * y);
+    // What a window makes of an error e at sample j that enters there: sum over l >= j of its gain times
+    // H_l Phi_{l,j}. The difference of both windows' answers to nu_j at sample j + 1 is B_w[j]; A holds that
+    // difference of gains, but for the older window's first sample, which precedes every nu_j.
+    let first_step = b_from.max(w);
+    let mut b = vec![TargetMatrix::zeros(); w + m_b - first_step];
+    let mut seen = TargetMatrix::zeros();
+    for j in (first_step..w + m_b).rev() {
+        if j + 2 <= w + m_b {
+            seen *= samples[j + 2].f;
+        }
+        seen += a[j + 1 - w] * samples[j + 1].h;
+        b[j - first_step] = seen;
+    }
+    Difference { first: w, z, a, b }
 }
 
 /// Every difference Z_w of a window with all its coefficients, for tests and for the curious.
@@ -190,7 +184,9 @@ pub fn all_differences(samples: &[Sampled], m_b: usize, open_loop: bool) -> Opti
     if samples.len() != 2 * m_b + 1 || m_b == 0 {
         return None;
     }
-    differences(samples, &residuals_of(samples, open_loop), m_b, 0)
+    let (residuals, gains) = (residuals_of(samples, open_loop), window_gains(samples, m_b)?);
+    let one = |w| difference(samples, &residuals, &gains, w, 0);
+    Some((0..=m_b).map(one).collect())
 }
 
 fn residuals_of(samples: &[Sampled], open_loop: bool) -> Vec<Vector3<f64>> {
@@ -211,37 +207,34 @@ pub fn regression(samples: &[Sampled], m_b: usize, r: &Matrix3<f64>, open_loop: 
     if samples.len() != 2 * m_b + 1 || m_b == 0 {
         return None;
     }
-    // Z_k is correlated with its predecessors through samples m_b..=2 m_b only.
-    let all = differences(samples, &residuals_of(samples, open_loop), m_b, m_b)?;
-    // Each Q_hat column is rank three: B times (factor of Gamma x e_axis), 9x3 for each axis, side by side in 9x9.
-    let driven: Vec<Vec<TargetMatrix>> = all
-        .iter()
-        .map(|d| {
-            let first_step = m_b.max(d.first);
-            let steps = d.b.iter().enumerate();
-            steps
-                .map(|(i, b)| through_jerk(b, &jerk::gamma_factor(samples[first_step + i + 1].dt)))
-                .collect()
-        })
-        .collect();
-    let newest = &all[m_b];
-    let newest_driven = &driven[m_b];
+    let (residuals, gains) = (residuals_of(samples, open_loop), window_gains(samples, m_b)?);
+    let factors: Vec<Matrix3<f64>> = samples[m_b + 1..].iter().map(|s| jerk::gamma_factor(s.dt)).collect();
+    // Z_k is correlated with its predecessors through samples m_b..=2 m_b only. Each Q_hat column is rank three: B times
+    // (factor of Gamma x e_axis), 9x3 for each axis, side by side in place of B.
+    let driven = |w| {
+        let mut one = difference(samples, &residuals, &gains, w, m_b);
+        for (b, factor) in one.b.iter_mut().zip(&factors) {
+            *b = through_jerk(b, factor);
+        }
+        one
+    };
+    let newest = driven(m_b);
     let mut out = Regression {
         dt_d: Matrix3::zeros(),
         dt_c: Vector3::zeros(),
     };
     for p in 0..=m_b {
-        let earlier = &all[m_b - p];
+        let earlier = driven(m_b - p);
         let mut noise = TargetMatrix::zeros();
         for l in m_b..=2 * m_b - p {
             noise += newest.a[l - m_b] * r * earlier.a[l - earlier.first].transpose();
         }
         let c = newest.z * earlier.z.transpose() - noise;
         let mut columns = [TargetMatrix::zeros(); 3];
-        for (now, then) in newest_driven.iter().zip(&driven[m_b - p]) {
+        for (now, then) in newest.b.iter().zip(&earlier.b) {
             for (axis, column) in columns.iter_mut().enumerate() {
                 let (now, then) = (now.fixed_columns::<3>(3 * axis), then.fixed_columns::<3>(3 * axis));
-                *column += now * then.transpose();
+                column.gemm(1.0, &now, &then.transpose(), 1.0);
             }
         }
         for i in 0..3 {
@@ -288,7 +281,7 @@ fn inner(a: &TargetMatrix, b: &TargetMatrix, vech: bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::{DMatrix, DVector};
+    use nalgebra::DVector;
     use numerics::{Generator, Source, expm, stream};
     use rand_distr::{Distribution, StandardNormal};
 

@@ -110,6 +110,11 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             about: "open-loop residuals and the linearisation that the derivation implies, tuned as in Sec. IV",
             sets: &[("residuals", "consistent"), ("linearisation", "consistent")],
         },
+        Preset {
+            name: "whitened",
+            about: "as printed, but with the LiDAR rows divided by their standard deviations",
+            sets: &[("whiten", "true")],
+        },
     ],
     build,
 };
@@ -172,13 +177,21 @@ impl Milton {
             law: "milton",
             update: self.updates + 1,
         };
-        // Lambda- = (I - Lambda (Lambda + Q_w^-1)^-1) Lambda. A random walk leaves s where it is, so d- = Lambda- s.
-        let sum = self.information + Matrix3::identity() / self.q_w;
-        let Some(l) = spd::cholesky(&sum) else {
+        // Lambda- = (I - Lambda (Lambda + Q_w^-1)^-1) Lambda = L (I + q_w L^T L)^-1 L^T with Lambda = L L^T: the same matrix,
+        // but as printed it is the difference of two equal numbers once Lambda exceeds 1/q_w by far, which a large s does.
+        let Some(root) = spd::cholesky(&self.information) else {
             return Err(failed);
         };
-        let solved = Matrix3::from_fn(|i, j| spd::cholesky_solve(&l, &self.information.column(j).into_owned())[i]);
-        let prior = spd::symmetrised(&(self.information - self.information * solved));
+        let Some(spread) = spd::cholesky(&(Matrix3::identity() + root.transpose() * root * self.q_w)) else {
+            return Err(failed);
+        };
+        let mut half = root.transpose();
+        for mut column in half.column_iter_mut() {
+            let solved = spd::forward_substitution(&spread, &column.clone_owned());
+            column.copy_from(&solved);
+        }
+        // A random walk leaves s where it is, so d- = Lambda- s.
+        let prior = half.transpose() * half;
         // D_hat = D diag(2 s), Eq. (28).
         let slope = Matrix3::from_diagonal(&(self.s * 2.0));
         let fed = if self.about_prediction {
@@ -384,6 +397,24 @@ mod tests {
                 assert!((known - &psi).amax() < 1e-10, "update {update}");
             }
         }
+    }
+
+    /// However much an update has told, Q_w leaves no more than 1/q_w of it: a difference of large numbers would not.
+    #[test]
+    fn information_is_forgotten_without_loss_of_digits() {
+        let mut ours = law(TUNING, Matrix3::identity(), 0);
+        let told = Regression {
+            dt_d: Matrix3::new(2e30, 3e24, 0.0, 3e24, 1e20, 1e18, 0.0, 1e18, 4e25),
+            dt_c: Vector3::repeat(1.0),
+        };
+        let silent = Regression {
+            dt_d: Matrix3::zeros(),
+            dt_c: Vector3::zeros(),
+        };
+        ours.learn(&told).unwrap();
+        ours.learn(&silent).unwrap();
+        let share = ours.information * TUNING.q_w;
+        assert!((share - Matrix3::identity()).amax() < 1e-9, "{share}");
     }
 
     /// Fed exact correlations of a density q without end, the consistent law finds q and the printed one half of it.
