@@ -24,11 +24,21 @@ fn python() -> Option<&'static Path> {
             if std::fs::read(&installed).ok() == std::fs::read(&requirements).ok() {
                 return Some(python);
             }
-            let made = Command::new("python3").args(["-m", "venv", "--clear"]).arg(&environment).output();
+            let made = Command::new("python3")
+                .args(["-m", "venv", "--clear"])
+                .arg(&environment)
+                .output();
             if !made.is_ok_and(|output| output.status.success()) {
                 return None;
             }
-            let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--requirement"];
+            let pip = [
+                "-m",
+                "pip",
+                "install",
+                "--quiet",
+                "--disable-pip-version-check",
+                "--requirement",
+            ];
             let output = Command::new(&python).args(pip).arg(&requirements).output().unwrap();
             assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
             std::fs::copy(&requirements, &installed).unwrap();
@@ -43,8 +53,15 @@ fn script(test: &str, name: &str, arguments: &[&str]) -> Option<String> {
         skipped(test, "python3-venv");
         return None;
     };
-    let output = Command::new(python).arg(root().join("tests/fmpy").join(name)).args(arguments).output().unwrap();
-    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    let output = Command::new(python)
+        .arg(root().join("tests/fmpy").join(name))
+        .args(arguments)
+        .output()
+        .unwrap();
+    let (out, err) = (
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr),
+    );
     assert!(output.status.success(), "{name} {arguments:?}:\n{out}\n{err}");
     Some(out.into_owned())
 }
@@ -63,7 +80,11 @@ fn fmpy_finds_nothing_to_say_about_either_fmu() {
 
 #[test]
 fn fmpy_simulates_each_fmu_alone() {
-    let truth = script("truth alone", "alone.py", &[text(&fmu("fmu-truth")), "sample_count", "truth.r_tc_n[1]"]);
+    let truth = script(
+        "truth alone",
+        "alone.py",
+        &[text(&fmu("fmu-truth")), "sample_count", "truth.r_tc_n[1]"],
+    );
     if let Some(out) = truth {
         let values: Vec<(&str, f64)> = out
             .lines()
@@ -99,7 +120,9 @@ fn fmpy_couples_them_to_the_same_bits_as_the_harness() {
     ] {
         let out = folder.path().join(format!("{scheme}-{step}.csv"));
         let fmus = ["--truth", text(&truth), "--nav", text(&nav), "--out", text(&out)];
-        let how = ["--scheme", scheme, "--step", step, "--stop", stop, "--filter", "milton", "--run", "3", "--seed", "7"];
+        let how = [
+            "--scheme", scheme, "--step", step, "--stop", stop, "--filter", "milton", "--run", "3", "--seed", "7",
+        ];
         if script("coupling", "couple.py", &[&fmus[..], &how[..]].concat()).is_none() {
             return;
         }
@@ -118,7 +141,12 @@ fn fmpy_couples_them_to_the_same_bits_as_the_harness() {
                 for (i, axis) in ["x", "y", "z"].iter().enumerate() {
                     let theirs: f64 = row[&format!("{theirs}[{}]", i + 1)].parse().unwrap();
                     let ours: f64 = expected[&format!("{ours}_{axis}_{unit}")].parse().unwrap();
-                    assert_eq!(theirs.to_bits(), ours.to_bits(), "{scheme} {step}: sample {}", row["est.count"]);
+                    assert_eq!(
+                        theirs.to_bits(),
+                        ours.to_bits(),
+                        "{scheme} {step}: sample {}",
+                        row["est.count"]
+                    );
                 }
             }
         }

@@ -171,6 +171,7 @@ fn initial_estimate(t: &mut Builder) {
         .discrete()
         .unit_by(|i| PARTS[i / 3].0)
         .about_by(|i| format!("initial estimate drawn around the truth: {}", PARTS[i / 3].1))
+        .initially_from("a_dist_t_n")
         .vector(18, |m, i| m.read(|s| s.initial_estimate()[i]));
 }
 
@@ -210,11 +211,11 @@ fn truth(t: &mut Builder) {
         ),
     ];
     for (name, unit, about, part) in parts {
-        t.real(name)
-            .output()
-            .unit(unit)
-            .about(about)
-            .vector(3, move |m, i| m.read(|s| part(s.now(), i)));
+        let mut row = t.real(name).output().unit(unit).about(about);
+        if name == "truth.a_t_n" {
+            row = row.initially_from("a_dist_t_n");
+        }
+        row.vector(3, move |m, i| m.read(|s| part(s.now(), i)));
     }
 }
 

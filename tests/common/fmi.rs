@@ -3,7 +3,11 @@
 use fmi2_import::{Causality, Experiment, Fmu, ImportError, Instance, Value};
 
 /// The default experiment's start, without a stop time.
-pub const FROM_ZERO: Experiment = Experiment { start_time: 0.0, stop_time: None, tolerance: None };
+pub const FROM_ZERO: Experiment = Experiment {
+    start_time: 0.0,
+    stop_time: None,
+    tolerance: None,
+};
 
 /// Sets a variable of any type, unchecked on this side of the interface.
 pub fn set(instance: &mut Instance, name: &str, value: &Value) -> Result<(), ImportError> {
@@ -42,7 +46,11 @@ pub fn get(instance: &mut Instance, name: &str) -> Value {
 
 /// Names of all variables of some causalities, in the order of the description.
 pub fn names(fmu: &Fmu, causalities: &[Causality]) -> Vec<String> {
-    let chosen = fmu.description().variables.iter().filter(|v| causalities.contains(&v.causality));
+    let chosen = fmu
+        .description()
+        .variables
+        .iter()
+        .filter(|v| causalities.contains(&v.causality));
     chosen.map(|v| v.name.clone()).collect()
 }
 
@@ -60,7 +68,12 @@ pub fn bits(instance: &mut Instance, names: &[String]) -> Vec<u64> {
 /// Sets parameters, each from text, and goes through initialization.
 pub fn initialise(instance: &mut Instance, parameters: &[(String, String)], experiment: &Experiment) {
     for (name, text) in parameters {
-        let value = instance.description().variable(name).unwrap().parse_value(text).unwrap();
+        let value = instance
+            .description()
+            .variable(name)
+            .unwrap()
+            .parse_value(text)
+            .unwrap();
         set(instance, name, &value).unwrap();
     }
     instance.setup_experiment(experiment).unwrap();
@@ -71,5 +84,10 @@ pub fn initialise(instance: &mut Instance, parameters: &[(String, String)], expe
 /// Takes a step that must go well and without a warning.
 pub fn step(instance: &mut Instance, t: f64, h: f64) {
     let outcome = instance.do_step(t, h).unwrap();
-    assert_eq!(outcome, fmi2_import::Outcome::Ok, "t = {t}, h = {h}: {:?}", instance.messages());
+    assert_eq!(
+        outcome,
+        fmi2_import::Outcome::Ok,
+        "t = {t}, h = {h}: {:?}",
+        instance.messages()
+    );
 }

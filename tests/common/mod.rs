@@ -1,9 +1,11 @@
 //! What the end-to-end tests share: the packed FMUs, the harness's program, and a way to say that a test was skipped.
 
 #![allow(dead_code, reason = "each test binary uses its own part")]
-#![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
 
-use std::io::Write;
+pub mod fmi;
+
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
@@ -31,23 +33,42 @@ pub fn harness(arguments: &[&str]) -> Output {
     let program = PROGRAM.get_or_init(|| {
         fmu("fmu-nav");
         let built = Command::new(env!("CARGO"))
-            .args(["build", "--release", "--quiet", "--package", "trade-harness", "--message-format", "json"])
+            .args([
+                "build",
+                "--release",
+                "--quiet",
+                "--package",
+                "trade-harness",
+                "--message-format",
+                "json",
+            ])
             .current_dir(root())
             .output()
             .unwrap();
         assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
         let text = String::from_utf8(built.stdout).unwrap();
-        let artifacts = text.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap());
+        let artifacts = text
+            .lines()
+            .map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap());
         let mut programs = artifacts.filter_map(|a| a["executable"].as_str().map(PathBuf::from));
         programs.next_back().unwrap()
     });
-    Command::new(program).args(arguments).args(["--no-build", "--quiet"]).current_dir(root()).output().unwrap()
+    Command::new(program)
+        .args(arguments)
+        .args(["--no-build", "--quiet"])
+        .current_dir(root())
+        .output()
+        .unwrap()
 }
 
 /// Like [`harness`], for a call that must succeed; returns what it printed.
 pub fn harness_ok(arguments: &[&str]) -> String {
     let output = harness(arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{arguments:?}: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     String::from_utf8(output.stdout).unwrap()
 }
 
@@ -56,7 +77,28 @@ pub fn skipped(test: &str, package: &str) {
     let _ = writeln!(std::io::stderr(), "SKIPPED {test}: needs the system package {package}");
 }
 
+/// Copies a `.fmu` file entry by entry; `edit` gives each entry's new contents, or `None` to leave it out.
+pub fn repacked(from: &Path, to: &Path, edit: impl Fn(&str, Vec<u8>) -> Option<Vec<u8>>) {
+    let mut old = zip::ZipArchive::new(std::fs::File::open(from).unwrap()).unwrap();
+    let mut new = zip::ZipWriter::new(std::fs::File::create(to).unwrap());
+    for index in 0..old.len() {
+        let mut entry = old.by_index(index).unwrap();
+        let mut bytes = Vec::new();
+        entry.read_to_end(&mut bytes).unwrap();
+        let name = entry.name().unwrap().into_owned();
+        if let Some(bytes) = edit(&name, bytes) {
+            new.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
+            new.write_all(&bytes).unwrap();
+        }
+    }
+    new.finish().unwrap();
+}
+
 /// A CSV file as rows of columns by name.
 pub fn read_csv(path: &Path) -> Vec<std::collections::HashMap<String, String>> {
-    csv::Reader::from_path(path).unwrap().deserialize().map(Result::unwrap).collect()
+    csv::Reader::from_path(path)
+        .unwrap()
+        .deserialize()
+        .map(Result::unwrap)
+        .collect()
 }

@@ -72,7 +72,7 @@ pub enum HarnessError {
         /// Model.
         model: String,
         /// Variable, value, and what would be allowed.
-        source: ImportError,
+        source: Box<ImportError>,
     },
     /// `--set` of something that is no parameter.
     #[error("{model}.{variable} has causality '{causality}'; --set takes parameters only")]

@@ -220,27 +220,31 @@ fn optional<T>(value: Option<T>, show: impl Fn(T) -> String) -> String {
 }
 
 /// Outputs follow from the state at a communication point, not from the inputs set there; at initialization they follow from the
-/// parameters. Saying so keeps masters from seeing algebraic loops where two slaves are coupled both ways.
+/// parameters and the inputs that their rows name. Saying so keeps masters from seeing algebraic loops where two slaves are
+/// coupled both ways.
 fn model_structure<M>(table: &Table<M>) -> Element {
-    let indices = |causality| {
-        (1_usize..)
-            .zip(table.variables())
-            .filter(move |(_, variable)| variable.causality == causality)
-            .map(|(index, _)| index.to_string())
+    let at_initialization = |unknown: &Variable<M>| {
+        let known = |variable: &Variable<M>| match variable.causality {
+            Causality::Parameter => true,
+            Causality::Input => unknown.initial_inputs.contains(&variable.base_name()),
+            Causality::Output | Causality::Local => false,
+        };
+        let knowns = (1_usize..).zip(table.variables()).filter(|(_, v)| known(v));
+        knowns.map(|(index, _)| index.to_string()).collect::<Vec<_>>().join(" ")
     };
-    let unknowns = |dependencies: &str| -> Vec<Element> {
-        indices(Causality::Output)
-            .map(|index| {
-                Element::new("Unknown")
-                    .attribute("index", index)
-                    .attribute("dependencies", dependencies)
-            })
-            .collect()
+    let unknowns = |dependencies: &dyn Fn(&Variable<M>) -> String| -> Vec<Element> {
+        let variables = (1_usize..).zip(table.variables());
+        let outputs = variables.filter(|(_, variable)| variable.causality == Causality::Output);
+        let unknown = |(index, variable): (usize, &Variable<M>)| {
+            Element::new("Unknown")
+                .attribute("index", index.to_string())
+                .attribute("dependencies", dependencies(variable))
+        };
+        outputs.map(unknown).collect()
     };
-    let parameters: Vec<_> = indices(Causality::Parameter).collect();
     let sections = [
-        section("Outputs", unknowns("")),
-        section("InitialUnknowns", unknowns(&parameters.join(" "))),
+        section("Outputs", unknowns(&|_| String::new())),
+        section("InitialUnknowns", unknowns(&at_initialization)),
     ];
     Element::new("ModelStructure").children(sections.into_iter().flatten())
 }

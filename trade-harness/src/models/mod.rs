@@ -242,7 +242,7 @@ impl<'a> StartValues<'a> {
         let variable = self.model.description().variable(name)?;
         let value = variable.parse_value(text).map_err(|source| HarnessError::Value {
             model: self.model.name.clone(),
-            source,
+            source: Box::new(source),
         })?;
         self.values.retain(|(n, _)| n != name);
         self.values.push((name.to_owned(), value));

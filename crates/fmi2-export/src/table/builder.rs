@@ -156,6 +156,7 @@ pub struct Row<'t, M, K: Kind> {
     discrete: bool,
     about: ByElement<String>,
     start: Option<ByElement<K::Value>>,
+    initial_inputs: Vec<&'static str>,
 }
 
 impl<'t, M, K: Kind> Row<'t, M, K> {
@@ -168,6 +169,7 @@ impl<'t, M, K: Kind> Row<'t, M, K> {
             discrete: false,
             about: Box::new(|_| String::new()),
             start: None,
+            initial_inputs: Vec::new(),
         }
     }
 
@@ -222,6 +224,13 @@ impl<'t, M, K: Kind> Row<'t, M, K> {
     /// Start value of each element, by its row-major index from 0.
     pub fn start_by(mut self, start: impl Fn(usize) -> K::Value + 'static) -> Self {
         self.start = Some(Box::new(start));
+        self
+    }
+
+    /// Says that the value depends on this input (named without indices) already at initialization. The XML tells masters,
+    /// which then set the input before they read the value. In steps no output depends on an input set at the same time.
+    pub fn initially_from(mut self, input: &'static str) -> Self {
+        self.initial_inputs.push(input);
         self
     }
 
@@ -308,6 +317,7 @@ impl<'t, M, K: Kind> Row<'t, M, K> {
                 about: (self.about)(element),
                 causality: self.causality,
                 variability,
+                initial_inputs: self.initial_inputs.clone(),
                 typed: self.kind.typed(element, access),
             });
         }

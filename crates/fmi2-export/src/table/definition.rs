@@ -97,6 +97,14 @@ pub enum DefinitionError {
         /// Its display unit.
         display_unit: &'static str,
     },
+    /// A value is said to depend on an input that is not there.
+    #[error("'{name}' is said to depend on '{input}', which is no input: name one, without indices")]
+    UnknownInput {
+        /// The variable.
+        name: String,
+        /// What it is said to depend on.
+        input: &'static str,
+    },
     /// The enumeration type has not been declared.
     #[error("'{name}' is of enumeration '{type_name}', which has not been declared: call enumeration_type first")]
     UnknownEnumeration {
@@ -373,6 +381,21 @@ mod tests {
             start,
             Some(E::StartOutOfBounds { bounds, .. }) if bounds == "an item of 'Kind'"
         ));
+    }
+
+    #[test]
+    fn dependencies_are_inputs() {
+        let unknown = defect(|t| t.integer("n").output().initially_from("u").get(|m| m.n));
+        let expected = E::UnknownInput {
+            name: "n".to_owned(),
+            input: "u",
+        };
+        assert_eq!(unknown, Some(expected));
+        let known = defect(|t| {
+            t.integer("n").output().initially_from("u").get(|m| m.n);
+            t.real("u").input().vector_rw(2, |_, _| 0.0, |_, _, _| ());
+        });
+        assert_eq!(known, None);
     }
 
     #[test]

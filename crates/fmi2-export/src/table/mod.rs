@@ -39,6 +39,18 @@ impl<M> Table<M> {
                 });
             }
         }
+        let is_input = |name: &str| {
+            let mut inputs = variables.iter().filter(|v| v.causality == Causality::Input);
+            inputs.any(|v| v.base_name() == name)
+        };
+        for variable in &variables {
+            if let Some(input) = variable.initial_inputs.iter().find(|input| !is_input(input)) {
+                defect.get_or_insert_with(|| DefinitionError::UnknownInput {
+                    name: variable.name.clone(),
+                    input,
+                });
+            }
+        }
         Self {
             variables,
             types,

@@ -68,8 +68,17 @@ pub struct Variable<M> {
     pub causality: Causality,
     /// When it may change.
     pub variability: Variability,
+    /// Inputs, without indices, that its value depends on at initialization.
+    pub initial_inputs: Vec<&'static str>,
     /// FMI type and access.
     pub typed: Typed<M>,
+}
+
+impl<M> Variable<M> {
+    /// Its name without indices: that of the scalar, vector or matrix it belongs to.
+    pub(crate) fn base_name(&self) -> &str {
+        self.name.split('[').next().unwrap_or_default()
+    }
 }
 
 /// A declared enumeration. Items count from 1.

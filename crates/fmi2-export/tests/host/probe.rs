@@ -198,7 +198,7 @@ fn table() -> Table<Probe> {
         .unit("rad")
         .display_unit("deg")
         .get(|m| m.y[0] / 2.0);
-    t.integer("steps").output().get(|m| m.steps);
+    t.integer("steps").output().initially_from("u").get(|m| m.steps);
     t.boolean("started").output().get(|m| m.steps > 0);
     t.string("echo").output().get(|m| match m.behaviour {
         PANICS_IN_GET => panic!("lost my voice"),

@@ -1,0 +1,248 @@
+//! The harness as its user meets it: repeatable studies, failures that are counted, and mistakes on the command line.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
+
+mod common;
+
+use common::{fmu, harness, harness_ok, read_csv, repacked};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// Every file of a folder with its contents.
+fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for entry in std::fs::read_dir(folder).unwrap().map(Result::unwrap) {
+        if entry.path().is_dir() {
+            found.extend(files(&entry.path()));
+        } else {
+            found.insert(entry.path(), std::fs::read(entry.path()).unwrap());
+        }
+    }
+    found
+}
+
+/// The results of a study without what may differ on repeat: `timing.csv` and `environment` in the manifest.
+fn results(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut kept = BTreeMap::new();
+    for (path, mut bytes) in files(folder) {
+        let name = text(path.strip_prefix(folder).unwrap()).to_owned();
+        if name == "manifest.json" {
+            let mut manifest: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+            assert!(manifest.as_object_mut().unwrap().remove("environment").is_some());
+            bytes = serde_json::to_vec(&manifest).unwrap();
+        }
+        if name != "timing.csv" {
+            kept.insert(name, bytes);
+        }
+    }
+    kept
+}
+
+const STUDY: [&str; 5] = ["compare", "--filters", "fixed_q,milton@consistent", "--runs", "3"];
+
+#[test]
+fn threads_repeats_and_masters_give_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = |name: &str, more: &[&str]| {
+        let out = folder.path().join(name);
+        harness_ok(&[&STUDY, more, &["--out", text(&out)]].concat());
+        results(&out)
+    };
+    let one = study("one", &["--jobs", "1"]);
+    assert!(one.len() >= 5, "{:?}", one.keys());
+    assert_eq!(study("two", &["--jobs", "2"]), one);
+    // Into a folder that holds results already.
+    assert_eq!(study("one", &["--jobs", "2"]), one);
+    let every_epoch = |results: &BTreeMap<String, Vec<u8>>| {
+        let mut kept = results.clone();
+        kept.remove("manifest.json"); // tells step and scheme
+        kept
+    };
+    assert_eq!(
+        every_epoch(&study("jacobi", &["--scheme", "jacobi"])),
+        every_epoch(&one)
+    );
+    assert_eq!(every_epoch(&study("quarter", &["--step", "0.25"])), every_epoch(&one));
+    assert_ne!(study("seed", &["--seed", "6"])["summary.csv"], one["summary.csv"]);
+}
+
+/// One of our filters as a stranger's, with a covariance that overflows at its first sample.
+#[test]
+fn a_filter_that_fails_is_counted_and_named_and_the_others_go_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let (alone, beside) = (folder.path().join("alone"), folder.path().join("beside"));
+    let study = ["compare", "--filters", "fixed_q", "--runs", "2", "--seed", "9"];
+    harness_ok(&[&study[..], &["--out", text(&alone)]].concat());
+    let foreign = format!("broken={}", text(&fmu("fmu-nav")));
+    let broken = [
+        "--nav",
+        &foreign,
+        "--set",
+        "broken.p0.sigma_position=1e200",
+        "--out",
+        text(&beside),
+    ];
+    let output = harness(&[&study[..], &broken].concat());
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    for run in ["seed 9 run 0", "seed 9 run 1"] {
+        assert!(
+            said.lines().any(|line| line.contains("broken") && line.contains(run)),
+            "{said}"
+        );
+    }
+    let rows = read_csv(&beside.join("summary.csv"));
+    let columns =
+        |row: usize| ["filter", "runs", "failed", "diverged", "pos_rmse_m"].map(|name| rows[row][name].as_str());
+    assert_eq!(columns(1), ["broken", "2", "2", "0", ""]);
+    assert_eq!(columns(0)[..4], ["fixed_q", "2", "0", "0"]);
+    assert_eq!(
+        rows[0],
+        read_csv(&alone.join("summary.csv"))[0],
+        "a failing neighbour changes nothing"
+    );
+    let failures = read_csv(&beside.join("failures.csv"));
+    let told: Vec<_> = failures
+        .iter()
+        .map(|f| [&f["filter"], &f["study_seed"], &f["run"]].map(String::as_str))
+        .collect();
+    assert_eq!(told, [["broken", "9", "0"], ["broken", "9", "1"]]);
+    assert!(
+        failures[0]["message"].contains("not positive definite"),
+        "{}",
+        failures[0]["message"]
+    );
+}
+
+/// A world that breaks takes every filter of its run along, and the study still ends in a table.
+#[test]
+fn a_world_that_fails_is_counted_for_each_filter() {
+    let folder = tempfile::tempdir().unwrap();
+    let burn = ["start=100", "duration=10", "a_t_n[1]=1e300"].map(|set| format!("fmu-truth.target_burn.{set}"));
+    let burn = ["--set", &burn[0], "--set", &burn[1], "--set", &burn[2]];
+    let study = [
+        "compare",
+        "--filters",
+        "fixed_q,milton",
+        "--runs",
+        "2",
+        "--out",
+        text(folder.path()),
+    ];
+    let table = harness_ok(&[&study[..], &burn].concat());
+    assert!(table.contains("milton"), "{table}");
+    for row in read_csv(&folder.path().join("summary.csv")) {
+        assert_eq!([&row["runs"], &row["failed"]], ["2", "2"]);
+    }
+    let failures = read_csv(&folder.path().join("failures.csv"));
+    assert_eq!(failures.len(), 4);
+    assert!(
+        failures.iter().all(|f| f["message"].contains("no longer finite")),
+        "{failures:?}"
+    );
+}
+
+/// New contents for an entry of an archive, or `None` to leave it out.
+type Edit<'a> = dyn Fn(&str, Vec<u8>) -> Option<Vec<u8>> + 'a;
+
+/// Arguments, and what the message must hold.
+type Mistake<'a> = (&'a [&'a str], &'a [&'a str]);
+
+#[test]
+fn mistakes_on_the_command_line_are_told_and_leave_earlier_results_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    harness_ok(&["compare", "--filters", "fixed_q", "--runs", "1", "--out", text(&out)]);
+    let before = files(&out);
+
+    let nav = fmu("fmu-nav");
+    let broken = |name: &str, edit: &Edit<'_>| {
+        let path = folder.path().join(name);
+        repacked(&nav, &path, edit);
+        format!("x={}", text(&path))
+    };
+    let is_library = |name: &str| name.starts_with("binaries/");
+    let no_binary = broken("no-binary.fmu", &|name, bytes| (!is_library(name)).then_some(bytes));
+    let no_library = broken("no-library.fmu", &|name, bytes| {
+        Some(if is_library(name) { vec![7; 99] } else { bytes })
+    });
+    let no_xml = broken("no-xml.fmu", &|name, bytes| {
+        (name != "modelDescription.xml").then_some(bytes)
+    });
+    let bad_xml = broken("bad-xml.fmu", &|name, bytes| {
+        let half = bytes.len() / 2;
+        Some(if name == "modelDescription.xml" {
+            bytes[..half].to_vec()
+        } else {
+            bytes
+        })
+    });
+    let cut = folder.path().join("cut.fmu");
+    let bytes = std::fs::read(&nav).unwrap();
+    std::fs::write(&cut, &bytes[..bytes.len() / 2]).unwrap();
+    let cut = format!("x={}", text(&cut));
+
+    let mistakes: [Mistake<'_>; 22] = [
+        (
+            &["--set", "fmu-truth.lidar.sigma_rnge=1"],
+            &["fmu-truth", "lidar.sigma_rnge", "did you mean \"lidar.sigma_range\""],
+        ),
+        (
+            &["--set", "fmu-nav.fixed_q.S=1"],
+            &["fmu-nav", "fixed_q.S", "did you mean \"fixed_q.s\""],
+        ),
+        (&["--set", "fmu-sea.x=1"], &["fmu-sea", "fmu-truth, fmu-nav"]),
+        (
+            &["--set", "fmu-truth.lidar.sigma_range=-1"],
+            &["fmu-truth", "lidar.sigma_range", "-1", "minimum is 0 m"],
+        ),
+        (
+            &["--set", "fmu-truth.lidar.sigma_range=inf"],
+            &["fmu-truth", "lidar.sigma_range", "inf", "finite"],
+        ),
+        (
+            &["--set", "fmu-nav.r.sigma_range=0"],
+            &["fixed_q", "r.sigma_range", "0.0 m must be greater than 0"],
+        ),
+        (&["--set", "fmu-nav.est.time=0"], &["fmu-nav.est.time", "output"]),
+        (&["--filters", "kalman"], &["kalman", "fixed_q, "]),
+        (&["--filters", "milton@papr"], &["milton", "papr", "consistent"]),
+        (&["--scenario", "moon"], &["moon", "leo_venting"]),
+        (&["--step", "0"], &["step of 0 s"]),
+        (&["--step", "-1"], &["-1"]),
+        (&["--step", "nan"], &["NaN"]),
+        (&["--nav", "x=missing.fmu"], &["missing.fmu", "check the path"]),
+        (&["--nav", &cut], &["cut.fmu", "zip"]),
+        (&["--nav", &no_binary], &["no-binary.fmu", "binaries/", "no platform"]),
+        (&["--nav", &no_library], &["no-library.fmu", "cannot load"]),
+        (&["--nav", &no_xml], &["no-xml.fmu", "modelDescription.xml"]),
+        (&["--nav", &bad_xml], &["bad-xml.fmu", "modelDescription.xml", "line"]),
+        (&["--truth", text(&nav)], &["truth.r_tc_n", "--map"]),
+        (&["--fmu-dir", "nowhere"], &["nowhere", "pack"]),
+        (&["--runs", "0"], &["--runs"]),
+    ];
+    for (arguments, says) in mistakes {
+        let output = harness(&[&["compare", "--out", text(&out)], arguments].concat());
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(output.stdout.is_empty(), "{arguments:?}");
+        for part in says {
+            assert!(said.contains(part), "{arguments:?}: '{part}' is missing in: {said}");
+        }
+        assert!(files(&out) == before, "{arguments:?} touched earlier results");
+    }
+
+    // A place that takes no files: a file in the way, and a folder below one.
+    let file = out.join("summary.csv");
+    for place in [file.clone(), file.join("deeper")] {
+        let output = harness(&["compare", "--filters", "fixed_q", "--runs", "1", "--out", text(&place)]);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(text(&place)), "{said}");
+        assert!(files(&out) == before);
+    }
+}
