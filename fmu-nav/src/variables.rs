@@ -249,9 +249,14 @@ fn beliefs(t: &mut Builder) {
     belief(t, "gravity.j4", "1", Any, "fourth zonal harmonic", |b| {
         &mut b.gravity_j[2]
     });
-    belief(t, "gravity.mass_ratio", "1", Positive, "mass ratio of the three-body problem", |b| {
-        &mut b.gravity_mass_ratio
-    });
+    belief(
+        t,
+        "gravity.mass_ratio",
+        "1",
+        Positive,
+        "mass ratio of the three-body problem",
+        |b| &mut b.gravity_mass_ratio,
+    );
     let diverged = "the filter calls itself diverged when the running mean of NIS / 3 exceeds this";
     belief(t, "divergence.nis", "1", Positive, diverged, |b| &mut b.divergence_nis);
     t.integer("divergence.samples")
@@ -265,15 +270,19 @@ fn beliefs(t: &mut Builder) {
         );
 }
 
-/// Defines the accessors of one tunable's value, stored in the variant that its kind calls for.
+/// The accessors of one tunable's value, stored in the variant that its kind calls for; a restored state may hold less.
 macro_rules! stored {
     ($f:expr, $i:expr, $variant:ident, $default:expr) => {
         (
-            move |m: &NavModel| match m.settings.tunables[$f][$i] {
-                Value::$variant(v) => v,
+            move |m: &NavModel| match m.settings.tunables.get($f).and_then(|of| of.get($i)) {
+                Some(Value::$variant(v)) => *v,
                 _ => $default,
             },
-            move |m: &mut NavModel, v| m.settings.tunables[$f][$i] = Value::$variant(v),
+            move |m: &mut NavModel, v| {
+                if let Some(slot) = m.settings.tunables.get_mut($f).and_then(|of| of.get_mut($i)) {
+                    *slot = Value::$variant(v);
+                }
+            },
         )
     };
 }

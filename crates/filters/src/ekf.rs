@@ -83,9 +83,9 @@ impl Dynamics {
     /// Each vehicle's 9x9 block is exponentiated by itself and the two are then combined: with r_t = r_tc + r_c the
     /// relative states inherit the difference of the blocks, which is what A_t/c of Eq. (5) expresses.
     pub fn transition(&self, x: &State, dt: f64, thrust: Option<&Thrust>) -> StateMatrix {
-        let (r_c, v_c) = (part(x, idx::R_C), part(x, idx::V_C));
-        let (r_t, v_t) = (part(x, idx::R_TC) + r_c, part(x, idx::V_TC) + v_c);
-        let vehicle = |r: &Vector3<f64>, v: &Vector3<f64>, third_on_v: Matrix3<f64>, third_decay: f64| {
+        let r_c = part(x, idx::R_C);
+        let r_t = part(x, idx::R_TC) + r_c;
+        let vehicle = |r: &Vector3<f64>, third_on_v: Matrix3<f64>, third_decay: f64| {
             let (by_r, by_v) = self.gravity.partials(r);
             let mut a = TargetMatrix::zeros();
             a.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
@@ -95,9 +95,9 @@ impl Dynamics {
             a.fixed_view_mut::<3, 3>(6, 6).fill_diagonal(-third_decay);
             expm(&(a * dt))
         };
-        let target = vehicle(&r_t, &v_t, Matrix3::identity(), self.acceleration_decay);
+        let target = vehicle(&r_t, Matrix3::identity(), self.acceleration_decay);
         let drive = thrust.map_or_else(Matrix3::zeros, |t| -t.dcm_n_bc);
-        let chaser = vehicle(&r_c, &v_c, drive, self.beta);
+        let chaser = vehicle(&r_c, drive, self.beta);
         let mut f = StateMatrix::zeros();
         f.fixed_view_mut::<9, 9>(0, 0).copy_from(&target);
         f.fixed_view_mut::<9, 9>(9, 9).copy_from(&chaser);
@@ -262,6 +262,7 @@ impl InitialSigma {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp)]
 mod tests {
     use super::*;
     use numerics::{Generator, Source, stream};

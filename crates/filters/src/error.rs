@@ -20,7 +20,7 @@ pub enum FilterError {
         known: String,
     },
     /// A value outside its range.
-    #[error("{name} = {value} {unit}: must be {permitted}")]
+    #[error("{name} = {value}{}{unit}: must be {permitted}", if unit.is_empty() { "" } else { " " })]
     OutOfRange {
         /// FMI variable.
         name: String,
@@ -29,7 +29,13 @@ pub enum FilterError {
         /// Unit of the value.
         unit: &'static str,
         /// The range in words.
-        permitted: &'static str,
+        permitted: String,
+    },
+    /// A law asked for a tunable that it does not declare with this type: a mistake in the law.
+    #[error("{name} is not declared with the type that the law reads it with")]
+    Undeclared {
+        /// FMI variable.
+        name: String,
     },
     /// A tunable left at "the scenario's own" in a scenario that has no value for it.
     #[error("{name} is -1, the scenario's own value, but scenario {scenario} has none: set it")]

@@ -7,7 +7,7 @@ use crate::laws::{AccelerationModel, Adaptation, FILTERS, FilterEntry, Law, Setu
 use crate::sample::Sample;
 use crate::scenarios::{SCENARIOS, ScenarioEntry};
 use crate::state::{LidarRows, N, N_TARGET, State, TargetMatrix, idx};
-use crate::tunable::{Tunables, Value};
+use crate::tunable::{Bound, Tunables, Value};
 use crate::units::Units;
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3, Vector6};
 use numerics::spd;
@@ -164,32 +164,6 @@ struct Divergence {
     mean: f64,
 }
 
-fn positive(name: &str, value: f64, unit: &'static str) -> Result<f64, FilterError> {
-    if value > 0.0 && value.is_finite() {
-        Ok(value)
-    } else {
-        Err(FilterError::OutOfRange {
-            name: name.into(),
-            value,
-            unit,
-            permitted: "greater than 0",
-        })
-    }
-}
-
-fn not_negative(name: &str, value: f64, unit: &'static str) -> Result<f64, FilterError> {
-    if value >= 0.0 && value.is_finite() {
-        Ok(value)
-    } else {
-        Err(FilterError::OutOfRange {
-            name: name.into(),
-            value,
-            unit,
-            permitted: "0 or greater",
-        })
-    }
-}
-
 impl Navigator {
     /// A filter that waits for its first sample.
     ///
@@ -201,16 +175,17 @@ impl Navigator {
         let (scenario, filter, b) = (settings.scenario()?, settings.filter()?, &settings.beliefs);
         let units = scenario.units;
         let own = |name: &str, value: f64| scenario.resolve(name, value);
-        let sigma = |name: &str, value: f64, unit: &'static str| positive(name, own(name, value)?, unit);
+        let sigma = |name: &str, value: f64, unit: &'static str| Bound::Positive.check(name, own(name, value)?, unit);
         let r_lidar = Vector3::new(
-            positive("r.sigma_range", b.r_sigma_range, "m")? / units.length,
-            positive("r.sigma_angle", b.r_sigma_angle, "rad")?,
-            positive("r.sigma_angle", b.r_sigma_angle, "rad")?,
+            Bound::Positive.check("r.sigma_range", b.r_sigma_range, "m")? / units.length,
+            Bound::Positive.check("r.sigma_angle", b.r_sigma_angle, "rad")?,
+            Bound::Positive.check("r.sigma_angle", b.r_sigma_angle, "rad")?,
         )
         .map(|s| s * s);
-        let r_acc = positive("r.sigma_accelerometer", b.r_sigma_accelerometer, "m/s2")? / units.acceleration();
-        let bias_walk = not_negative("accelerometer.bias_sigma", b.accelerometer_bias_sigma, "m/s2")?;
-        let q_c = not_negative("chaser.q_c", own("chaser.q_c", b.chaser_q_c)?, "m2/s3")?;
+        let r_acc =
+            Bound::Positive.check("r.sigma_accelerometer", b.r_sigma_accelerometer, "m/s2")? / units.acceleration();
+        let bias_walk = Bound::NonNegative.check("accelerometer.bias_sigma", b.accelerometer_bias_sigma, "m/s2")?;
+        let q_c = Bound::NonNegative.check("chaser.q_c", own("chaser.q_c", b.chaser_q_c)?, "m2/s3")?;
         let initial_p = ekf::InitialSigma {
             position: sigma("p0.sigma_position", b.p0_sigma_position, "m")? / units.length,
             velocity: sigma("p0.sigma_velocity", b.p0_sigma_velocity, "m/s")? / units.velocity(),
@@ -236,7 +211,7 @@ impl Navigator {
                 AccelerationModel::GaussMarkov(rate) => rate,
                 AccelerationModel::RandomWalk | AccelerationModel::Absent => 0.0,
             },
-            beta: not_negative("accelerometer.beta", b.accelerometer_beta, "1/s")? * units.time,
+            beta: Bound::NonNegative.check("accelerometer.beta", b.accelerometer_beta, "1/s")? * units.time,
             q_c: q_c / (units.velocity().powi(2) / units.time),
             q_coupled: b.chaser_q_coupled,
             // A standard deviation per 1 s step, as a variance rate.
@@ -248,11 +223,11 @@ impl Navigator {
             law,
             r_lidar,
             r_accelerometer: r_acc * r_acc,
-            gate: not_negative("accelerometer.gate", b.accelerometer_gate, "m/s2")? / units.acceleration(),
+            gate: Bound::NonNegative.check("accelerometer.gate", b.accelerometer_gate, "m/s2")? / units.acceleration(),
             initial_p,
             divergence: Divergence {
-                limit: positive("divergence.nis", b.divergence_nis, "")?,
-                samples: positive("divergence.samples", f64::from(b.divergence_samples), "")?,
+                limit: Bound::Positive.check("divergence.nis", b.divergence_nis, "")?,
+                samples: Bound::Positive.check("divergence.samples", f64::from(b.divergence_samples), "")?,
                 mean: 1.0,
             },
             core: None,

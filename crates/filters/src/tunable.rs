@@ -14,6 +14,29 @@ pub enum Bound {
     Any,
 }
 
+impl Bound {
+    /// `value` if it is finite and within the range.
+    ///
+    /// # Errors
+    /// [`FilterError::OutOfRange`], naming the variable.
+    pub fn check(self, name: &str, value: f64, unit: &'static str) -> Result<f64, FilterError> {
+        let (fits, permitted) = match self {
+            Self::Positive => (value > 0.0, "greater than 0"),
+            Self::NonNegative => (value >= 0.0, "0 or greater"),
+            Self::Any => (true, "finite"),
+        };
+        if fits && value.is_finite() {
+            return Ok(value);
+        }
+        Err(FilterError::OutOfRange {
+            name: name.into(),
+            value,
+            unit,
+            permitted: permitted.into(),
+        })
+    }
+}
+
 /// Type, start value and range of a tunable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
@@ -142,21 +165,7 @@ impl Tunables<'_> {
         } else {
             value
         };
-        let (fits, permitted) = match bound {
-            Bound::Positive => (value > 0.0, "greater than 0"),
-            Bound::NonNegative => (value >= 0.0, "0 or greater"),
-            Bound::Any => (true, "finite"),
-        };
-        if fits && value.is_finite() {
-            Ok(value)
-        } else {
-            Err(FilterError::OutOfRange {
-                name: full,
-                value,
-                unit,
-                permitted,
-            })
-        }
+        bound.check(&full, value, unit)
     }
 
     /// A whole-number tunable.
@@ -176,12 +185,11 @@ impl Tunables<'_> {
                 if (*min..=*max).contains(&v) {
                     Ok(v)
                 } else {
-                    let permitted = "within the declared minimum and maximum";
                     Err(FilterError::OutOfRange {
                         name: full,
                         value: f64::from(v),
                         unit: "",
-                        permitted,
+                        permitted: format!("{min} to {max}"),
                     })
                 }
             }
@@ -218,11 +226,6 @@ impl Tunables<'_> {
     }
 
     fn mistyped(&self, name: String) -> FilterError {
-        FilterError::OutOfRange {
-            name,
-            value: f64::NAN,
-            unit: "",
-            permitted: "declared with this type",
-        }
+        FilterError::Undeclared { name }
     }
 }

@@ -97,6 +97,8 @@ pub(crate) enum CallError {
     StateChecksum,
     #[error("the state could not be put into or read from bytes")]
     StateCoding(#[from] postcard::Error),
+    #[error("the bytes hold {count} bytes more than a state of this FMU")]
+    StateSpare { count: usize },
 
     #[error("the model failed, and only a reset or an earlier state helps")]
     Model(#[source] ModelError),

@@ -85,7 +85,11 @@ impl<M: Model> Snapshot<M> {
         if fnv1a(checked) != u64::from_le_bytes(*checksum) {
             return Err(CallError::StateChecksum);
         }
-        Ok(postcard::from_bytes(&checked[PAYLOAD..])?)
+        match postcard::take_from_bytes(&checked[PAYLOAD..])? {
+            (snapshot, []) => Ok(snapshot),
+            // Bytes to spare mean another layout of the model's state than ours.
+            (_, spare) => Err(CallError::StateSpare { count: spare.len() }),
+        }
     }
 }
 

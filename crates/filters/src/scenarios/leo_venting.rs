@@ -1,6 +1,7 @@
 //! Low Earth orbit with a venting target: two-body gravity with J2 to J4 (Mamich and Zanetti, Sec. IV.A).
 
 use super::ScenarioEntry;
+use crate::tunable::Bound;
 use crate::{Beliefs, FilterError, Gravity, Units};
 use astro::ZonalGravity;
 
@@ -29,23 +30,10 @@ pub(super) const ENTRY: ScenarioEntry = ScenarioEntry {
 };
 
 fn gravity(beliefs: &Beliefs) -> Result<Gravity, FilterError> {
-    for (name, value, unit) in [
-        ("gravity.mu", beliefs.gravity_mu, "m3/s2"),
-        ("gravity.radius", beliefs.gravity_radius, "m"),
-    ] {
-        if value <= 0.0 {
-            return Err(FilterError::OutOfRange {
-                name: name.into(),
-                value,
-                unit,
-                permitted: "greater than 0",
-            });
-        }
-    }
     let [j2, j3, j4] = beliefs.gravity_j;
     Ok(Gravity::Zonal(ZonalGravity {
-        mu: beliefs.gravity_mu,
-        r_ref: beliefs.gravity_radius,
+        mu: Bound::Positive.check("gravity.mu", beliefs.gravity_mu, "m3/s2")?,
+        r_ref: Bound::Positive.check("gravity.radius", beliefs.gravity_radius, "m")?,
         j: [j2, j3, j4, 0.0, 0.0],
     }))
 }

@@ -11,7 +11,10 @@ pub(super) const ENTRY: ScenarioEntry = ScenarioEntry {
     name: "nrho_venting",
     about: "rendezvous on a near-rectilinear halo orbit with a crewed target that vents (Mamich and Zanetti, Sec. IV.B)",
     duration: 5500.0,
-    units: Units { length: LENGTH, time: TIME },
+    units: Units {
+        length: LENGTH,
+        time: TIME,
+    },
     gravity,
     defaults: &[
         // Eq. (37), printed nondimensionally.
@@ -37,8 +40,13 @@ fn gravity(beliefs: &Beliefs) -> Result<Gravity, FilterError> {
     if mass_ratio > 0.0 && mass_ratio < 1.0 {
         return Ok(Gravity::Cr3bp(Cr3bp { mass_ratio }));
     }
-    let (name, permitted) = ("gravity.mass_ratio".into(), "between 0 and 1");
-    Err(FilterError::OutOfRange { name, value: mass_ratio, unit: "", permitted })
+    let (name, permitted) = ("gravity.mass_ratio".into(), "between 0 and 1".into());
+    Err(FilterError::OutOfRange {
+        name,
+        value: mass_ratio,
+        unit: "",
+        permitted,
+    })
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //! error at their own first sample; carried to the same epoch and subtracted they leave a sequence Z without any state
 //! error, only noise:
 //!
-//! Z_w = O+_{w+1} Y_{w+1} - F_w O+_w Y_w = sum_l A_w[l] eta_l + sum_j B_w[j] nu_j
+//! `Z_w = O+_{w+1} Y_{w+1} - F_w O+_w Y_w = sum_l A_w[l] eta_l + sum_j B_w[j] nu_j`
 //!
 //! with w the older window's first sample, O+ = M^-1 O^T the pseudo-inverse, eta_l the measurement noise of sample l and
 //! nu_j the process noise of the step from j to j + 1. A_w and B_w follow from that definition (Eqs. 22 and 23 print some
@@ -55,9 +55,9 @@ pub struct Difference {
     pub first: usize,
     /// The difference itself, 9.
     pub z: Target,
-    /// A_w[l] for l = w..=w+m_b, each 9x3.
+    /// `A_w[l]` for l = w..=w+m_b, each 9x3.
     pub a: Vec<Gain>,
-    /// B_w[j] for j = w..w+m_b, each 9x9.
+    /// `B_w[j]` for j = w..w+m_b, each 9x9.
     pub b: Vec<TargetMatrix>,
 }
 
@@ -279,6 +279,7 @@ fn inner(a: &TargetMatrix, b: &TargetMatrix, vech: bool) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::needless_range_loop, reason = "indices are the paper's")]
 mod tests {
     use super::*;
     use nalgebra::DVector;

@@ -38,7 +38,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             kind: Kind::Integer {
                 start: 30,
                 min: SHORTEST_BUFFER,
-                max: 1000,
+                max: 200,
             },
         },
         Tunable {
