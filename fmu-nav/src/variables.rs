@@ -519,4 +519,8 @@ fn locals(t: &mut Builder) {
         .local()
         .about("updates passed by because the adaptation window was singular")
         .get(|m| m.read(|n| n.skipped()));
+    t.integer("q.unsolved")
+        .local()
+        .about("updates at which the law's solver found no solution, so that the last process noise stayed")
+        .get(|m| m.read(|n| n.unsolved()));
 }

@@ -56,7 +56,7 @@ pub struct StudyArgs {
         long,
         value_name = "NAME[@PRESET],...",
         value_delimiter = ',',
-        default_value = "fixed_q,fixed_q@small,milton,milton@consistent",
+        default_value = "fixed_q,fixed_q@small,milton,milton@consistent,constrained_q",
         value_parser = optional_choice
     )]
     pub filters: Vec<OptionalChoice>,
@@ -232,7 +232,16 @@ mod tests {
             .filter_map(|f| f.0.as_ref())
             .map(|f| f.label.as_str())
             .collect();
-        assert_eq!(labels, ["fixed_q", "fixed_q@small", "milton", "milton@consistent"]);
+        assert_eq!(
+            labels,
+            [
+                "fixed_q",
+                "fixed_q@small",
+                "milton",
+                "milton@consistent",
+                "constrained_q"
+            ]
+        );
         assert_eq!((args.runs, args.study.seed, args.case.as_str()), (100, 1, "nominal"));
         assert_eq!(args.scenarios, ["leo_venting"]);
         assert_eq!(args.out, PathBuf::from("results/compare"));

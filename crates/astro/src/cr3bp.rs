@@ -57,7 +57,11 @@ impl Cr3bp {
 
     /// Jacobi constant 2 Omega - v^2, which every free motion keeps.
     pub fn jacobi_constant(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> f64 {
-        let attraction: f64 = self.primaries().iter().map(|(mass, place)| mass / (r - place).norm()).sum();
+        let attraction: f64 = self
+            .primaries()
+            .iter()
+            .map(|(mass, place)| mass / (r - place).norm())
+            .sum();
         r.x * r.x + r.y * r.y + 2.0 * attraction - v.norm_squared()
     }
 }
@@ -66,10 +70,15 @@ impl Cr3bp {
 mod tests {
     use super::*;
 
-    const EARTH_MOON: Cr3bp = Cr3bp { mass_ratio: EARTH_MOON_MASS_RATIO };
+    const EARTH_MOON: Cr3bp = Cr3bp {
+        mass_ratio: EARTH_MOON_MASS_RATIO,
+    };
 
     fn near_the_moon() -> (Vector3<f64>, Vector3<f64>) {
-        (Vector3::new(0.9879, 0.01432, 0.0521), Vector3::new(0.07173, 0.9238, -0.8528))
+        (
+            Vector3::new(0.9879, 0.01432, 0.0521),
+            Vector3::new(0.07173, 0.9238, -0.8528),
+        )
     }
 
     #[test]
@@ -98,7 +107,10 @@ mod tests {
             step[axis] = 1e-6;
             let a = |r: Vector3<f64>, v: Vector3<f64>| EARTH_MOON.acceleration(&r, &v);
             let column = (a(r + step, v) - a(r - step, v)) / 2e-6;
-            assert!((by_r.column(axis) - column).amax() < 1e-6 * by_r.amax(), "position {axis}");
+            assert!(
+                (by_r.column(axis) - column).amax() < 1e-6 * by_r.amax(),
+                "position {axis}"
+            );
             let column = (a(r, v + step) - a(r, v - step)) / 2e-6;
             assert!((by_v.column(axis) - column).amax() < 1e-8, "velocity {axis}");
         }

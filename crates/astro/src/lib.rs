@@ -1,16 +1,30 @@
-//! Constants, gravity and its gradient, reference frames and orbital elements.
+//! Constants, gravity and its gradient, the smaller forces on an Earth satellite, reference frames, orbital elements and
+//! relative motion.
 //!
 //! What flies in this gravity, and when its thrusters fire, is told by `truth`; what a filter believes of it by `filters`.
-//! Start reading at [`ZonalGravity`].
+//! Start reading at [`ZonalGravity`], for two satellites at [`relative`].
 
+pub mod atmosphere;
+mod clohessy_wiltshire;
 pub mod cr3bp;
 pub mod earth;
+pub mod earth_rotation;
 mod elements;
+pub mod epoch;
 mod error;
 pub mod frames;
+pub mod harmonics;
+pub mod radiation;
+pub mod relative;
+mod relative_j2;
+pub mod sun_moon;
 mod zonal;
 
+pub use clohessy_wiltshire::ClohessyWiltshire;
 pub use cr3bp::Cr3bp;
 pub use elements::Elements;
 pub use error::AstroError;
+pub use harmonics::SphericalHarmonics;
+pub use relative::Lvlh;
+pub use relative_j2::{J2RelativeMotion, TargetOrbit};
 pub use zonal::ZonalGravity;

@@ -484,6 +484,11 @@ impl Navigator {
         self.law.updates()
     }
 
+    /// How often the law's solver found no solution.
+    pub fn unsolved(&self) -> i32 {
+        self.law.unsolved()
+    }
+
     /// How often the law passed an update by because its window was singular.
     pub fn skipped(&self) -> i32 {
         self.law.skipped()

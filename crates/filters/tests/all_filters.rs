@@ -244,7 +244,7 @@ fn parameters_out_of_range_are_refused_by_name() {
         Navigator::new(&unknown, 0.0)
             .unwrap_err()
             .to_string()
-            .contains("fixed_q, snc, dmc, milton")
+            .contains("fixed_q, snc, dmc, milton, constrained_q")
     );
 }
 

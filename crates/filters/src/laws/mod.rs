@@ -4,10 +4,13 @@
 //! makes it appear in the FMU's `filter` enumeration, its tunables in the model description, and itself in
 //! `trade-harness list` and in every test that loops over [`FILTERS`].
 
+mod constrained_q;
+pub mod correlation;
 mod dmc;
 mod fixed_q;
-pub mod milton;
+mod milton;
 mod snc;
+mod window;
 
 use crate::FilterError;
 use crate::state::{LidarRows, Target, TargetMatrix};
@@ -68,6 +71,11 @@ pub trait Adaptation {
 
     /// How often it had to pass an update by, its window being singular.
     fn skipped(&self) -> i32 {
+        0
+    }
+
+    /// How often its solver found no solution, so that the last process noise stayed.
+    fn unsolved(&self) -> i32 {
         0
     }
 }
@@ -133,6 +141,7 @@ registry! {
     Snc => snc::Snc, snc::ENTRY;
     Dmc => dmc::Dmc, dmc::ENTRY;
     Milton => milton::Milton, milton::ENTRY;
+    ConstrainedQ => constrained_q::ConstrainedQ, constrained_q::ENTRY;
 }
 
 impl Adaptation for Law {
@@ -153,5 +162,8 @@ impl Adaptation for Law {
     }
     fn skipped(&self) -> i32 {
         self.inner().skipped()
+    }
+    fn unsolved(&self) -> i32 {
+        self.inner().unsolved()
     }
 }

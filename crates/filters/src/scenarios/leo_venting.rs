@@ -22,6 +22,7 @@ pub(super) const ENTRY: ScenarioEntry = ScenarioEntry {
         ("snc.q", 3e-5),
         ("dmc.sigma", 5e-6),
         ("dmc.time_constant", 10.0),
+        ("constrained_q.r_w", 1.0),
         ("milton.psi0", 1e-3),
         ("milton.q_w", 1e-5),
         ("milton.r_w", 1.0),

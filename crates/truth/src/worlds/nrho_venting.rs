@@ -22,7 +22,9 @@ const GRID: f64 = 1.0;
 /// The run ends with the rendezvous after this many intervals (Sec. IV.B: 5500 s).
 const INTERVALS: u32 = 5500;
 
-const GRAVITY: Cr3bp = Cr3bp { mass_ratio: EARTH_MOON_MASS_RATIO };
+const GRAVITY: Cr3bp = Cr3bp {
+    mass_ratio: EARTH_MOON_MASS_RATIO,
+};
 
 /// Final position and velocity of the chaser, nondimensional, rotating axes (Table 7).
 const FINAL_CHASER: [[f64; 3]; 2] = [[0.9879, 1.432e-2, 2.009e-3], [7.173e-2, 0.9238, -0.8528]];
@@ -164,7 +166,11 @@ mod tests {
             // Rounding of 4e8 m over 5500 steps there and back.
             let goal = rendezvous();
             assert!((end.r_c - goal.r_c).amax() < 1e-3, "run {run}: {}", end.r_c - goal.r_c);
-            assert!((end.r_tc() - goal.r_tc()).amax() < 1e-4, "run {run}: {}", end.r_tc() - goal.r_tc());
+            assert!(
+                (end.r_tc() - goal.r_tc()).amax() < 1e-4,
+                "run {run}: {}",
+                end.r_tc() - goal.r_tc()
+            );
             assert!((end.v_c - goal.v_c).amax() < 1e-8, "run {run}: {}", end.v_c - goal.v_c);
         }
     }
@@ -193,6 +199,9 @@ mod tests {
         }
         // Table 7: c + s = 1.414, c - s = 0.02689 for the angle at the end, 43.9 deg.
         let at_end = rotating_from_inertial(ENTRY.duration);
-        assert!((at_end[(0, 0)] - 0.7205).abs() < 1e-3 && (at_end[(0, 1)] - 0.6936).abs() < 1e-3, "{at_end}");
+        assert!(
+            (at_end[(0, 0)] - 0.7205).abs() < 1e-3 && (at_end[(0, 1)] - 0.6936).abs() < 1e-3,
+            "{at_end}"
+        );
     }
 }

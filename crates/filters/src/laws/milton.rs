@@ -1,6 +1,6 @@
 //! MILTON: the process noise follows the correlation of innovations (Mamich and Zanetti, Sec. III.C).
 //!
-//! [`correlation`] turns a window of samples into the regression for the jerk density; here stands what is done with it:
+//! [`super::correlation`] turns a window of samples into the regression for the jerk density; here stands what is done with it:
 //! the information-form recursion of Eq. (29) for the square root s of the density.
 //!
 //! Two readings exist of two steps of the paper, each a parameter:
@@ -9,59 +9,30 @@
 //! * `linearisation`: *printed* feeds c to D diag(2 s), whose fixed point lies at half of q; *consistent* linearises
 //!   about the predicted s, feeding c + D q(s).
 
-pub mod correlation;
-
+use super::correlation::Regression;
+use super::window::{M_B, READING, RESIDUALS, WHITEN, Window};
 use super::{Adaptation, FilterEntry, Law, Setup, Step};
 use crate::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
 use crate::tunable::{Bound, Kind, Preset, Tunable};
-use correlation::{Regression, Sampled};
 use nalgebra::{Matrix3, Vector3};
 use numerics::{Source, spd, stream};
 use rand_distr::{Distribution, StandardNormal};
 use serde::{Deserialize, Serialize};
-use std::collections::VecDeque;
-
-/// Fewest samples with which a window of three rows each can observe nine states.
-const SHORTEST_BUFFER: i32 = 3;
-const READINGS: &[&str] = &["printed", "consistent"];
-const READING_TYPE: &str = "MiltonReading";
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "milton",
     about: "innovation correlation adapts the jerk density (Mamich and Zanetti)",
     tunables: &[
-        Tunable {
-            name: "m_b",
-            about: "samples in the adaptation buffer",
-            kind: Kind::Integer {
-                start: 30,
-                min: SHORTEST_BUFFER,
-                max: 200,
-            },
-        },
-        Tunable {
-            name: "residuals",
-            about: "the filter's own innovations (printed) or open-loop residuals (consistent)",
-            kind: Kind::Choice {
-                type_name: READING_TYPE,
-                items: READINGS,
-            },
-        },
+        M_B,
+        RESIDUALS,
         Tunable {
             name: "linearisation",
             about: "Eq. (28) as printed, or about the predicted s (consistent)",
-            kind: Kind::Choice {
-                type_name: READING_TYPE,
-                items: READINGS,
-            },
+            kind: READING,
         },
-        Tunable {
-            name: "whiten",
-            about: "divide the LiDAR rows by their standard deviations before adapting",
-            kind: Kind::Boolean { start: false },
-        },
+        WHITEN,
         Tunable {
             name: "r_w",
             about: "measurement noise of the adaptation, R_w = r_w I, in the units the law adapts in",
@@ -128,25 +99,14 @@ fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
         let w: f64 = StandardNormal.sample(&mut generator);
         s0 + psi0.sqrt() * w
     });
-    let whiten = t.boolean("whiten")?;
-    let root = setup.r.diagonal().map(f64::sqrt);
     Ok(Milton {
-        m_b: t.integer("m_b")? as usize,
-        open_loop: t.choice("residuals")? == 1,
+        window: Window::new(setup)?,
         about_prediction: t.choice("linearisation")? == 1,
-        r: if whiten { Matrix3::identity() } else { setup.r },
-        row_scale: if whiten {
-            root.map(|sigma| 1.0 / sigma)
-        } else {
-            Vector3::repeat(1.0)
-        },
         r_w: t.real("r_w")?,
         q_w: t.real("q_w")?,
         s,
         information: Matrix3::identity() / psi0,
-        window: VecDeque::new(),
         updates: 0,
-        skipped: 0,
     }
     .into())
 }
@@ -154,20 +114,14 @@ fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
 /// The law and its memory.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Milton {
-    m_b: usize,
-    open_loop: bool,
+    window: Window,
     about_prediction: bool,
-    r: Matrix3<f64>,
-    row_scale: Vector3<f64>,
     r_w: f64,
     q_w: f64,
     s: Vector3<f64>,
     /// Lambda of Eq. (29).
     information: Matrix3<f64>,
-    /// Samples not yet adapted to, oldest first.
-    window: VecDeque<Sampled>,
     updates: i32,
-    skipped: i32,
 }
 
 impl Milton {
@@ -217,27 +171,10 @@ impl Adaptation for Milton {
     }
 
     fn observe(&mut self, step: Step) -> Result<(), FilterError> {
-        let rows = Matrix3::from_diagonal(&self.row_scale);
-        self.window.push_back(Sampled {
-            dt: step.dt,
-            f: step.f,
-            h: rows * step.h,
-            residual: rows * step.innovation,
-            correction: step.correction,
-        });
-        // C_k,k-p with p = 0..m_b reaches back over 2 m_b + 1 residuals; the next update waits until m_b + 1 are new.
-        if self.window.len() < 2 * self.m_b + 1 {
-            return Ok(());
-        }
-        let result = match correlation::regression(self.window.make_contiguous(), self.m_b, &self.r, self.open_loop) {
+        match self.window.push(step) {
             Some(regression) => self.learn(&regression),
-            None => {
-                self.skipped += 1;
-                Ok(())
-            }
-        };
-        self.window.drain(..self.m_b + 1);
-        result
+            None => Ok(()),
+        }
     }
 
     fn s(&self) -> Vector3<f64> {
@@ -249,7 +186,7 @@ impl Adaptation for Milton {
     }
 
     fn skipped(&self) -> i32 {
-        self.skipped
+        self.window.skipped()
     }
 }
 
@@ -257,13 +194,14 @@ impl Adaptation for Milton {
 mod tests {
     use super::*;
     use crate::laws::Law;
+    use crate::laws::correlation::{self, Sampled};
     use crate::state::{LidarRows, Target};
     use crate::tunable::{Tunables, Value};
     use crate::units::Units;
     use nalgebra::{DMatrix, DVector};
     use numerics::{Generator, expm};
 
-    const M_B: usize = 4;
+    const BUFFER: usize = 4;
 
     fn normal(g: &mut Generator) -> f64 {
         StandardNormal.sample(g)
@@ -292,7 +230,7 @@ mod tests {
 
     fn law(tuning: Tuning, r: Matrix3<f64>, run: u64) -> Milton {
         let values = [
-            Value::Integer(M_B as i32),
+            Value::Integer(BUFFER as i32),
             Value::Choice(tuning.residuals),
             Value::Choice(tuning.linearisation),
             Value::Boolean(tuning.whiten),
@@ -461,7 +399,7 @@ mod tests {
     #[test]
     fn a_blind_window_is_passed_by_and_counted() {
         let g = &mut stream(23, 0, Source::Lidar);
-        let blind = steps(g, 2 * M_B + 1).into_iter().map(|step| Step {
+        let blind = steps(g, 2 * BUFFER + 1).into_iter().map(|step| Step {
             h: LidarRows::zeros(),
             innovation: Vector3::zeros(),
             ..step
@@ -469,14 +407,14 @@ mod tests {
         let start = law(TUNING, Matrix3::identity(), 0);
         let ours = fed(start.clone(), blind);
         assert_eq!((ours.updates(), ours.skipped(), ours.s), (0, 1, start.s));
-        let later = fed(ours, steps(g, 3 * M_B));
+        let later = fed(ours, steps(g, 3 * BUFFER));
         assert!(later.updates() > 0, "it goes on once the target is seen again");
     }
 
     /// What `residuals` chooses: whether the filter's corrections are undone before the correlation is taken.
     #[test]
     fn consistent_residuals_are_the_innovations_of_a_filter_that_never_corrects() {
-        let recorded = steps(&mut stream(24, 0, Source::Lidar), 2 * M_B + 1);
+        let recorded = steps(&mut stream(24, 0, Source::Lidar), 2 * BUFFER + 1);
         let sampled: Vec<Sampled> = recorded
             .iter()
             .map(|s| Sampled {
@@ -515,7 +453,7 @@ mod tests {
     /// Whitened, the law does not see in which unit a row was measured; as printed it does.
     #[test]
     fn whitening_takes_out_the_units_of_the_rows() {
-        let recorded = steps(&mut stream(25, 0, Source::Lidar), 3 * M_B);
+        let recorded = steps(&mut stream(25, 0, Source::Lidar), 3 * BUFFER);
         let r = Matrix3::from_diagonal(&Vector3::new(0.5, 0.02, 0.3));
         let units = Matrix3::from_diagonal(&Vector3::new(10.0, 0.1, 3.0));
         for whiten in [true, false] {
