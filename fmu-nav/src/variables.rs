@@ -7,7 +7,7 @@ use filters::laws::FILTERS;
 use filters::scenarios::SCENARIOS;
 use filters::tunable::{Bound, Kind, Tunable, Value};
 use filters::{Beliefs, Settings, Status};
-use fmi2_export::{Table, TableBuilder};
+use fmi2_export::{Real, Row, Table, TableBuilder};
 
 type Builder = TableBuilder<NavModel>;
 
@@ -107,23 +107,36 @@ fn read(settings: &Settings, field: Field) -> f64 {
     *field(&mut settings.beliefs.clone())
 }
 
-fn belief(t: &mut Builder, name: &str, unit: &str, bound: Bound, about: &str, field: Field) {
-    let start = *field(&mut Beliefs::default());
-    let mut row = t.real(name).parameter().unit(unit).about(about);
-    if unit == "rad" {
-        row = row.display_unit("deg");
-    }
+/// A real parameter; `None` as start means "the scenario's own", shown as -1.
+fn real_parameter<'t>(
+    t: &'t mut Builder,
+    name: &str,
+    unit: &str,
+    bound: Bound,
+    start: Option<f64>,
+    about: &str,
+) -> Row<'t, NavModel, Real> {
+    let mut row = t.real(name).parameter();
+    row = match unit {
+        "" => row,
+        "rad" => row.unit(unit).display_unit("deg"),
+        _ => row.unit(unit),
+    };
     row = match bound {
         Bound::Positive => row.positive(),
         Bound::NonNegative => row.min(0.0),
         Bound::Any => row,
     };
-    row = if start == Beliefs::OWN {
-        row.own_default()
-    } else {
-        row.start(start)
-    };
-    row.rw(
+    match start {
+        Some(start) => row.start(start).about(about),
+        None => row.own_default().about(format!("{about}; -1: the scenario's own")),
+    }
+}
+
+fn belief(t: &mut Builder, name: &str, unit: &str, bound: Bound, about: &str, field: Field) {
+    let start = *field(&mut Beliefs::default());
+    let start = (start != Beliefs::OWN).then_some(start);
+    real_parameter(t, name, unit, bound, start, about).rw(
         move |m| read(&m.settings, field),
         move |m, v| *field(&mut m.settings.beliefs) = v,
     );
@@ -292,20 +305,7 @@ fn tunable_row(t: &mut Builder, filter: &str, tunable: &Tunable, f: usize, i: us
     match tunable.kind {
         Kind::Real { start, unit, bound } => {
             let (get, set) = stored!(f, i, Real, 0.0);
-            let mut row = t.real(name).parameter().about(tunable.about);
-            if !unit.is_empty() {
-                row = row.unit(unit);
-            }
-            row = match bound {
-                Bound::Positive => row.positive(),
-                Bound::NonNegative => row.min(0.0),
-                Bound::Any => row,
-            };
-            row = match start {
-                Some(start) => row.start(start),
-                None => row.own_default(),
-            };
-            row.rw(get, set);
+            real_parameter(t, &name, unit, bound, start, tunable.about).rw(get, set);
         }
         Kind::Integer { start, min, max } => {
             let (get, set) = stored!(f, i, Integer, 0);

@@ -135,9 +135,9 @@ fn what_does_not_exist_or_fit_is_told() {
     assert!(matches!(e, HarnessError::Import(_)));
     let e = known(
         refused(&["milton"], &["fmu-nav.milton.m_b=three"], &[]),
-        &["milton.m_b", "three"],
+        &["fmu-nav", "milton.m_b", "three"],
     );
-    assert!(matches!(e, HarnessError::Import(_)));
+    assert!(matches!(e, HarnessError::Value { .. }));
     let e = known(refused(&[], &[], &["other.y_hat=est.r_tc_n"]), &["y_hat"]);
     assert!(matches!(e, HarnessError::Import(_)));
     for (set, option) in [
