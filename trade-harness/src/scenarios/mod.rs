@@ -125,6 +125,31 @@ const VENTING_SIGNALS: Signals = Signals {
     report_axes: target_rtn,
 };
 
+/// What the MILTON paper claims of each of its scenarios, as bounds.
+///
+/// * `overlay`, `over_estimated`, `unbiased`: the claims in words, with the figures of that scenario.
+const fn milton_claims(overlay: &'static str, over_estimated: &'static str, unbiased: &'static str) -> [Bound; 8] {
+    const fn milton(column: &'static str, low: f64, high: f64, claim: &'static str) -> Bound {
+        Bound {
+            filter: "milton",
+            column,
+            low,
+            high,
+            claim,
+        }
+    }
+    [
+        milton("ratio_pos_r", 0.95, 1.2, overlay),
+        milton("ratio_pos_t", 0.95, 1.2, overlay),
+        milton("ratio_pos_n", 0.95, 1.2, overlay),
+        milton("ratio_vel", 1.2, f64::INFINITY, over_estimated),
+        milton("ratio_acc", 1.2, f64::INFINITY, over_estimated),
+        milton("mean_err_sigma", 0.0, 1.2, unbiased),
+        milton("diverged", 0.0, 0.0, "no run diverges"),
+        milton("failed", 0.0, 0.0, "no run fails"),
+    ]
+}
+
 /// The scenario of this name.
 ///
 /// # Errors

@@ -3,11 +3,13 @@
 use astro::cr3bp::{EARTH_MOON_LENGTH, EARTH_MOON_MASS_RATIO, EARTH_MOON_TIME};
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Bound, Scenario, Signals, VENTING_SIGNALS, rtn, target};
+use super::{Scenario, Signals, VENTING_SIGNALS, milton_claims, rtn, target};
 use crate::signals::TruthSample;
 
-const RATIO: &str = "estimated and sample 3 sigma of relative position nearly overlay (Fig. 8)";
-const OVER: &str = "velocity and acceleration are over-estimated, though less than in low Earth orbit (Figs. 9 and 10)";
+const OVERLAY: &str = "estimated and sample 3 sigma of relative position nearly overlay (Fig. 8)";
+const OVER_ESTIMATED: &str =
+    "velocity and acceleration are over-estimated, though less than in low Earth orbit (Figs. 9 and 10)";
+const UNBIASED: &str = "the mean error is zero within its sampling noise (Figs. 8-10)";
 
 pub(super) const SCENARIO: Scenario = Scenario {
     name: "nrho_venting",
@@ -19,64 +21,7 @@ pub(super) const SCENARIO: Scenario = Scenario {
         report_axes: rtn_about_the_moon,
         ..VENTING_SIGNALS
     },
-    bounds: &[
-        Bound {
-            filter: "milton",
-            column: "ratio_pos_r",
-            low: 0.95,
-            high: 1.2,
-            claim: RATIO,
-        },
-        Bound {
-            filter: "milton",
-            column: "ratio_pos_t",
-            low: 0.95,
-            high: 1.2,
-            claim: RATIO,
-        },
-        Bound {
-            filter: "milton",
-            column: "ratio_pos_n",
-            low: 0.95,
-            high: 1.2,
-            claim: RATIO,
-        },
-        Bound {
-            filter: "milton",
-            column: "ratio_vel",
-            low: 1.2,
-            high: f64::INFINITY,
-            claim: OVER,
-        },
-        Bound {
-            filter: "milton",
-            column: "ratio_acc",
-            low: 1.2,
-            high: f64::INFINITY,
-            claim: OVER,
-        },
-        Bound {
-            filter: "milton",
-            column: "mean_err_sigma",
-            low: 0.0,
-            high: 1.2,
-            claim: "the mean error is zero within its sampling noise (Figs. 8-10)",
-        },
-        Bound {
-            filter: "milton",
-            column: "diverged",
-            low: 0.0,
-            high: 0.0,
-            claim: "no run diverges",
-        },
-        Bound {
-            filter: "milton",
-            column: "failed",
-            low: 0.0,
-            high: 0.0,
-            claim: "no run fails",
-        },
-    ],
+    bounds: &milton_claims(OVERLAY, OVER_ESTIMATED, UNBIASED),
 };
 
 /// Rows R, T, N of the target's orbit about the Moon, from its position and its inertial velocity relative to the Moon.
