@@ -37,25 +37,25 @@ pub fn gamma_factor(dt: f64) -> Matrix3<f64> {
 ///
 /// Source: Mamich and Zanetti, Eq. (27).
 pub fn process_noise(q_psd: &Vector3<f64>, dt: f64) -> TargetMatrix {
-    let g = gamma(dt);
+    on_every_axis(&gamma(dt), q_psd)
+}
+
+/// Covariance of (r, v, a) of unit density, 3x3, spread over the axes and scaled by the density of each, 9x9.
+fn on_every_axis(block: &Matrix3<f64>, density: &Vector3<f64>) -> TargetMatrix {
     TargetMatrix::from_fn(|i, j| {
         if i % 3 == j % 3 {
-            g[(i / 3, j / 3)] * q_psd[i % 3]
+            block[(i / 3, j / 3)] * density[i % 3]
         } else {
             0.0
         }
     })
 }
 
-/// One 3x3 block of (r, v, a) covariance, the same on every axis.
-fn on_every_axis(block: &Matrix3<f64>) -> TargetMatrix {
-    TargetMatrix::from_fn(|i, j| if i % 3 == j % 3 { block[(i / 3, j / 3)] } else { 0.0 })
-}
-
 /// Discrete process noise of white acceleration of density `q` (m2/s3 in SI) on every axis, 9x9; rows of a are zero.
 pub fn white_acceleration(q: f64, dt: f64) -> TargetMatrix {
     let d2 = dt * dt / 2.0;
-    on_every_axis(&(Matrix3::new(dt.powi(3) / 3.0, d2, 0.0, d2, dt, 0.0, 0.0, 0.0, 0.0) * q))
+    let block = Matrix3::new(dt.powi(3) / 3.0, d2, 0.0, d2, dt, 0.0, 0.0, 0.0, 0.0);
+    on_every_axis(&block, &Vector3::repeat(q))
 }
 
 /// Discrete process noise of an acceleration da/dt = -beta a + w, w white of density `q`, on every axis, 9x9.
@@ -78,9 +78,9 @@ pub fn gauss_markov(q: f64, beta: f64, dt: f64) -> TargetMatrix {
         // Answer of (r, v, a) to a unit impulse of jerk a time t ago, by its series: beta t is small.
         let x = beta * t;
         let answer = Vector3::new(t * t * psi(x, 2), t * psi(x, 1), (-x).exp());
-        block += answer * answer.transpose() * (weight * dt / 2.0 * q);
+        block += answer * answer.transpose() * (weight * dt / 2.0);
     }
-    on_every_axis(&block)
+    on_every_axis(&block, &Vector3::repeat(q))
 }
 
 /// psi_1 = (1 - e^-x) / x and psi_2 = (x - 1 + e^-x) / x^2, accurate near zero.

@@ -150,7 +150,6 @@ pub struct Navigator {
     core: Option<ekf::Gaussian>,
     /// The reading held over the step that follows; `None` when below the gate or before the first sample.
     thrust: Option<Thrust>,
-    start_time: f64,
     estimate: Estimate,
     innovation: Innovation,
     status: Status,
@@ -176,12 +175,10 @@ impl Navigator {
         let units = scenario.units;
         let own = |name: &str, value: f64| scenario.resolve(name, value);
         let sigma = |name: &str, value: f64, unit: &'static str| Bound::Positive.check(name, own(name, value)?, unit);
-        let r_lidar = Vector3::new(
+        let r_lidar = sensors::lidar::covariance(
             Bound::Positive.check("r.sigma_range", b.r_sigma_range, "m")? / units.length,
             Bound::Positive.check("r.sigma_angle", b.r_sigma_angle, "rad")?,
-            Bound::Positive.check("r.sigma_angle", b.r_sigma_angle, "rad")?,
-        )
-        .map(|s| s * s);
+        );
         let r_acc =
             Bound::Positive.check("r.sigma_accelerometer", b.r_sigma_accelerometer, "m/s2")? / units.acceleration();
         let bias_walk = Bound::NonNegative.check("accelerometer.bias_sigma", b.accelerometer_bias_sigma, "m/s2")?;
@@ -200,7 +197,7 @@ impl Navigator {
                 scenario: scenario.name,
                 defaults: scenario.defaults,
             },
-            r: Matrix3::from_diagonal(&r_lidar),
+            r: r_lidar,
             units,
             study_seed: settings.study_seed,
             run: settings.run,
@@ -221,7 +218,7 @@ impl Navigator {
             units,
             dynamics,
             law,
-            r_lidar,
+            r_lidar: r_lidar.diagonal(),
             r_accelerometer: r_acc * r_acc,
             gate: Bound::NonNegative.check("accelerometer.gate", b.accelerometer_gate, "m/s2")? / units.acceleration(),
             initial_p,
@@ -232,7 +229,6 @@ impl Navigator {
             },
             core: None,
             thrust: None,
-            start_time,
             estimate: Estimate {
                 time: start_time,
                 count: 0,
@@ -458,11 +454,6 @@ impl Navigator {
     /// What the filter is doing.
     pub fn status(&self) -> Status {
         self.status
-    }
-
-    /// Epoch at which the initial estimate holds, s.
-    pub fn start_time(&self) -> f64 {
-        self.start_time
     }
 
     /// Number of the target's states that have a covariance: nine, or six without an acceleration state.

@@ -1,6 +1,7 @@
 //! What a world decides, and the list of worlds.
 
-use nalgebra::{Matrix3, SVector};
+use astro::frames;
+use nalgebra::{Matrix3, SVector, Vector3};
 use numerics::rk4;
 use serde::{Deserialize, Serialize};
 
@@ -33,18 +34,44 @@ pub trait World: Sync {
     /// When the world's orbit cannot be computed.
     fn start(&self, params: &Params) -> Result<Start, TruthError>;
 
+    /// Acceleration of a vehicle by nothing but the field it moves in, axes N, m/s2.
+    fn gravity(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64>;
+
+    /// Normal of a vehicle's orbit, axes N, any length.
+    fn orbit_normal(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64>;
+
     /// Rate of change of the state.
     ///
-    /// * `t`: s since the start of the run.
+    /// * `_t`: s since the start of the run.
     /// * `push`: what acts beside gravity.
     /// * returns: velocities and accelerations in the places of positions and velocities.
-    fn derivative(&self, t: f64, state: &Vehicles, push: &Push) -> Vehicles;
+    fn derivative(&self, _t: f64, state: &Vehicles, push: &Push) -> Vehicles {
+        let mut on_target = push.target_n;
+        // The attitude costs as much as gravity and matters only to vents.
+        if push.target_bt != Vector3::zeros() {
+            on_target += self.dcm_bt_n(state).tr_mul(&push.target_bt);
+        }
+        Vehicles {
+            r_t: state.v_t,
+            v_t: self.gravity(&state.r_t, &state.v_t) + on_target,
+            r_c: state.v_c,
+            v_c: self.gravity(&state.r_c, &state.v_c) + push.chaser_n,
+        }
+    }
 
-    /// Attitude of the target: `dcm_bt_n`, maps N to target body axes.
-    fn dcm_bt_n(&self, state: &Vehicles) -> Matrix3<f64>;
+    /// Attitude of the target, which looks at the chaser: `dcm_bt_n`, maps N to target body axes.
+    fn dcm_bt_n(&self, state: &Vehicles) -> Matrix3<f64> {
+        frames::los_body_axes(
+            &-state.r_tc(),
+            &-state.v_tc(),
+            &self.orbit_normal(&state.r_t, &state.v_t),
+        )
+    }
 
-    /// Attitude of the chaser: `dcm_bc_n`, maps N to chaser body axes.
-    fn dcm_bc_n(&self, state: &Vehicles) -> Matrix3<f64>;
+    /// Attitude of the chaser, which looks at the target: `dcm_bc_n`, maps N to chaser body axes.
+    fn dcm_bc_n(&self, state: &Vehicles) -> Matrix3<f64> {
+        frames::los_body_axes(&state.r_tc(), &state.v_tc(), &self.orbit_normal(&state.r_c, &state.v_c))
+    }
 
     /// Standard deviations of the initial estimate where the parameters leave them to the scenario.
     fn initial_sigma(&self) -> InitialSigma;

@@ -1,7 +1,7 @@
 //! Rendezvous with a venting target in low Earth orbit: Mamich and Zanetti, Sec. IV.A.
 
-use astro::{Elements, earth, frames};
-use nalgebra::{Matrix3, Vector3};
+use astro::{Elements, earth};
+use nalgebra::Vector3;
 
 use crate::initial::InitialSigma;
 use crate::world::back_propagate;
@@ -53,26 +53,12 @@ impl World for LeoVenting {
         Ok(Start { state, timeline })
     }
 
-    fn derivative(&self, _t: f64, state: &Vehicles, push: &Push) -> Vehicles {
-        let mut on_target = push.target_n;
-        // The attitude costs as much as gravity and matters only to vents.
-        if push.target_bt != Vector3::zeros() {
-            on_target += self.dcm_bt_n(state).tr_mul(&push.target_bt);
-        }
-        Vehicles {
-            r_t: state.v_t,
-            v_t: earth::TRUTH.acceleration(&state.r_t) + on_target,
-            r_c: state.v_c,
-            v_c: earth::TRUTH.acceleration(&state.r_c) + push.chaser_n,
-        }
+    fn gravity(&self, r: &Vector3<f64>, _v: &Vector3<f64>) -> Vector3<f64> {
+        earth::TRUTH.acceleration(r)
     }
 
-    fn dcm_bt_n(&self, state: &Vehicles) -> Matrix3<f64> {
-        frames::los_body_axes(&-state.r_tc(), &-state.v_tc(), &state.r_t.cross(&state.v_t))
-    }
-
-    fn dcm_bc_n(&self, state: &Vehicles) -> Matrix3<f64> {
-        frames::los_body_axes(&state.r_tc(), &state.v_tc(), &state.r_c.cross(&state.v_c))
+    fn orbit_normal(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
+        r.cross(v)
     }
 
     fn initial_sigma(&self) -> InitialSigma {
@@ -112,6 +98,7 @@ fn rendezvous() -> Result<Vehicles, TruthError> {
 mod tests {
     use super::*;
     use crate::world::step;
+    use astro::frames;
 
     fn run_forward(params: &Params, mut each: impl FnMut(&Vehicles)) -> Vehicles {
         let start = LeoVenting.start(params).unwrap();

@@ -1,7 +1,7 @@
 //! Rendezvous with a venting target on a near-rectilinear halo orbit: Mamich and Zanetti, Sec. IV.B.
 
+use astro::Cr3bp;
 use astro::cr3bp::{EARTH_MOON_LENGTH as LENGTH, EARTH_MOON_MASS_RATIO, EARTH_MOON_TIME as TIME};
-use astro::{Cr3bp, frames};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::initial::InitialSigma;
@@ -51,16 +51,6 @@ fn rotating_from_inertial(t: f64) -> Matrix3<f64> {
     Rotation3::from_axis_angle(&Vector3::z_axis(), -angle).into_inner()
 }
 
-fn acceleration(r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
-    GRAVITY.acceleration(&(r / LENGTH), &(v * (TIME / LENGTH))) * (LENGTH / (TIME * TIME))
-}
-
-/// Normal of the orbit about the Moon, any length.
-fn orbit_normal(r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
-    let from_moon = r - GRAVITY.secondary() * LENGTH;
-    from_moon.cross(&(v + Vector3::z().cross(&from_moon) / TIME))
-}
-
 impl World for NrhoVenting {
     fn start(&self, params: &Params) -> Result<Start, TruthError> {
         let mut events = vents::draw(params);
@@ -70,25 +60,14 @@ impl World for NrhoVenting {
         Ok(Start { state, timeline })
     }
 
-    fn derivative(&self, _t: f64, state: &Vehicles, push: &Push) -> Vehicles {
-        let mut on_target = push.target_n;
-        if push.target_bt != Vector3::zeros() {
-            on_target += self.dcm_bt_n(state).tr_mul(&push.target_bt);
-        }
-        Vehicles {
-            r_t: state.v_t,
-            v_t: acceleration(&state.r_t, &state.v_t) + on_target,
-            r_c: state.v_c,
-            v_c: acceleration(&state.r_c, &state.v_c) + push.chaser_n,
-        }
+    fn gravity(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
+        GRAVITY.acceleration(&(r / LENGTH), &(v * (TIME / LENGTH))) * (LENGTH / (TIME * TIME))
     }
 
-    fn dcm_bt_n(&self, state: &Vehicles) -> Matrix3<f64> {
-        frames::los_body_axes(&-state.r_tc(), &-state.v_tc(), &orbit_normal(&state.r_t, &state.v_t))
-    }
-
-    fn dcm_bc_n(&self, state: &Vehicles) -> Matrix3<f64> {
-        frames::los_body_axes(&state.r_tc(), &state.v_tc(), &orbit_normal(&state.r_c, &state.v_c))
+    /// Of the orbit about the Moon.
+    fn orbit_normal(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
+        let from_moon = r - GRAVITY.secondary() * LENGTH;
+        from_moon.cross(&(v + Vector3::z().cross(&from_moon) / TIME))
     }
 
     fn initial_sigma(&self) -> InitialSigma {
