@@ -163,6 +163,11 @@ struct Divergence {
     mean: f64,
 }
 
+/// The LiDAR's three rows among the most that a law can be given.
+fn pad(rows: &Vector3<f64>) -> Vector6<f64> {
+    rows.fixed_resize(0.0)
+}
+
 impl Navigator {
     /// A filter that waits for its first sample.
     ///
@@ -197,7 +202,8 @@ impl Navigator {
                 scenario: scenario.name,
                 defaults: scenario.defaults,
             },
-            r: r_lidar,
+            rows: scenario.measures.rows(),
+            r: pad(&r_lidar.diagonal()),
             units,
             study_seed: settings.study_seed,
             run: settings.run,
@@ -293,8 +299,8 @@ impl Navigator {
         self.law.observe(Step {
             dt: gap_s / self.units.time,
             f,
-            h,
-            innovation,
+            h: h.fixed_resize(0.0),
+            innovation: pad(&innovation),
             correction: (core.x - prior).fixed_rows::<9>(0).into_owned(),
         })?;
         self.thrust = drives.then(|| Thrust {

@@ -40,3 +40,7 @@ pub type Target = SVector<f64, N_TARGET>;
 pub type TargetMatrix = SMatrix<f64, N_TARGET, N_TARGET>;
 /// LiDAR rows (range, azimuth, elevation) over the target's nine states.
 pub type LidarRows = SMatrix<f64, 3, N_TARGET>;
+/// Most rows that a world's main measurement has.
+pub const MAX_ROWS: usize = 6;
+/// Rows of the main measurement over the target's nine states; those a world does not have are zero.
+pub type Rows = SMatrix<f64, MAX_ROWS, N_TARGET>;

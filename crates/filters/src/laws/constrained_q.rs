@@ -96,6 +96,8 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             sets: &[("residuals", "consistent"), ("whiten", "true")],
         },
     ],
+    search: &[],
+    only: None,
     build,
 };
 

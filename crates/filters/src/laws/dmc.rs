@@ -36,6 +36,8 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         about: "the scenario's own sigma and correlation time",
         sets: &[],
     }],
+    search: &[],
+    only: None,
     build,
 };
 

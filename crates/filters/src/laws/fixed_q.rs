@@ -32,6 +32,8 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             sets: &[("s", "1e-6")],
         },
     ],
+    search: &[],
+    only: None,
     build,
 };
 

@@ -87,6 +87,8 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             sets: &[("whiten", "true")],
         },
     ],
+    search: &[],
+    only: None,
     build,
 };
 

@@ -13,10 +13,11 @@ mod snc;
 mod window;
 
 use crate::FilterError;
-use crate::state::{LidarRows, Target, TargetMatrix};
+use crate::scenarios::Measures;
+use crate::state::{Rows, Target, TargetMatrix};
 use crate::tunable::{Preset, Tunable, Tunables};
 use crate::units::Units;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 /// What a law sees of one processed sample; internal units.
@@ -26,10 +27,10 @@ pub struct Step {
     pub dt: f64,
     /// Transition of the target's nine states from the previous sample to this one, 9x9.
     pub f: TargetMatrix,
-    /// LiDAR rows of H at the predicted state, 3x9; zero when the sample had no LiDAR measurement.
-    pub h: LidarRows,
-    /// LiDAR innovation (range, azimuth, elevation); zero without a measurement.
-    pub innovation: Vector3<f64>,
+    /// Rows of H at the predicted state, the first [`Setup::rows`] of 6x9; zero when the sample had no measurement.
+    pub h: Rows,
+    /// Innovation of those rows; zero without a measurement.
+    pub innovation: Vector6<f64>,
     /// What the update, accelerometer rows included, added to the target's nine states.
     pub correction: Target,
 }
@@ -84,14 +85,36 @@ pub trait Adaptation {
 pub struct Setup<'a> {
     /// Its tunables.
     pub tunables: Tunables<'a>,
-    /// LiDAR noise covariance R, 3x3, internal units.
-    pub r: Matrix3<f64>,
+    /// Rows of the main measurement: three of a LiDAR (range, azimuth, elevation), six of a metrology (rho, rho_dot).
+    pub rows: usize,
+    /// Their noise variances, the diagonal of R, internal units; zero beyond [`Setup::rows`].
+    pub r: Vector6<f64>,
     /// Internal units.
     pub units: Units,
     /// Seed of the study.
     pub study_seed: u64,
     /// Run within the study.
     pub run: u64,
+}
+
+/// A tunable to be searched, on a logarithmic scale.
+#[derive(Clone, Copy, Debug)]
+pub struct Search {
+    /// Name without the law's prefix.
+    pub tunable: &'static str,
+    /// Smallest value, SI or as the tunable says.
+    pub low: f64,
+    /// Largest value.
+    pub high: f64,
+}
+
+/// Where a filter has a meaning.
+#[derive(Clone, Copy, Debug)]
+pub struct Only {
+    /// The main measurement that it needs.
+    pub measures: Measures,
+    /// Why it has no meaning elsewhere.
+    pub why: &'static str,
 }
 
 /// A registered filter.
@@ -104,6 +127,10 @@ pub struct FilterEntry {
     pub tunables: &'static [Tunable],
     /// Named sets; the first is always `paper`.
     pub presets: &'static [Preset],
+    /// Real tunables that a search for the best tuning varies, each over decades.
+    pub search: &'static [Search],
+    /// Set when the filter has a meaning only where the main measurement is of one kind.
+    pub only: Option<Only>,
     /// Builds the law.
     pub build: fn(&Setup<'_>) -> Result<Law, FilterError>,
 }

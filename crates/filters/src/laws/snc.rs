@@ -25,6 +25,8 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         about: "the scenario's own q",
         sets: &[],
     }],
+    search: &[],
+    only: None,
     build,
 };
 

@@ -62,11 +62,16 @@ impl Window {
     /// When one of them is out of range.
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
         let whiten = setup.tunables.boolean(WHITEN.name)?;
-        let inverse_sigma = setup.r.diagonal().map(|variance| 1.0 / variance.sqrt());
+        let variances = setup.r.fixed_rows::<3>(0).into_owned();
+        let inverse_sigma = variances.map(|variance| 1.0 / variance.sqrt());
         Ok(Self {
             m_b: setup.tunables.integer(M_B.name)? as usize,
             open_loop: setup.tunables.choice(RESIDUALS.name)? == 1,
-            r: if whiten { Matrix3::identity() } else { setup.r },
+            r: if whiten {
+                Matrix3::identity()
+            } else {
+                Matrix3::from_diagonal(&variances)
+            },
             row_scale: if whiten { inverse_sigma } else { Vector3::repeat(1.0) },
             samples: VecDeque::new(),
             skipped: 0,
@@ -82,8 +87,8 @@ impl Window {
         self.samples.push_back(Sampled {
             dt: step.dt,
             f: step.f,
-            h: rows * step.h,
-            residual: rows * step.innovation,
+            h: rows * step.h.fixed_rows::<3>(0),
+            residual: rows * step.innovation.fixed_rows::<3>(0),
             correction: step.correction,
         });
         if self.samples.len() < 2 * self.m_b + 1 {

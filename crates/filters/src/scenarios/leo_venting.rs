@@ -1,6 +1,6 @@
 //! Low Earth orbit with a venting target: two-body gravity with J2 to J4 (Mamich and Zanetti, Sec. IV.A).
 
-use super::ScenarioEntry;
+use super::{Measures, ScenarioEntry};
 use crate::tunable::Bound;
 use crate::{Beliefs, FilterError, Gravity, Units};
 use astro::ZonalGravity;
@@ -9,6 +9,7 @@ pub(super) const ENTRY: ScenarioEntry = ScenarioEntry {
     name: "leo_venting",
     about: "rendezvous in low Earth orbit with a crewed target that vents (Mamich and Zanetti, Sec. IV.A)",
     duration: 5680.0,
+    measures: Measures::RangeAndBearing,
     units: Units::SI,
     gravity,
     defaults: &[

@@ -4,6 +4,26 @@ mod leo_venting;
 mod nrho_venting;
 
 use crate::{Beliefs, FilterError, Gravity, Units};
+use serde::{Deserialize, Serialize};
+
+/// The main measurement of a world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Measures {
+    /// Range, azimuth and elevation of the target: three rows of a partially observed state.
+    RangeAndBearing,
+    /// Relative position and velocity in the target's LVLH frame: six rows, the state in full.
+    RelativeState,
+}
+
+impl Measures {
+    /// Rows of the measurement.
+    pub fn rows(self) -> usize {
+        match self {
+            Self::RangeAndBearing => 3,
+            Self::RelativeState => 6,
+        }
+    }
+}
 
 /// A world as a filter sees it.
 pub struct ScenarioEntry {
@@ -13,6 +33,8 @@ pub struct ScenarioEntry {
     pub about: &'static str,
     /// Nominal duration, s.
     pub duration: f64,
+    /// Its main measurement.
+    pub measures: Measures,
     /// Units the filter works and adapts in.
     pub units: Units,
     /// Gravity model, in those units, from the user's parameters.

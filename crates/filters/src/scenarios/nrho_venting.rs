@@ -2,7 +2,7 @@
 //!
 //! The filter works and adapts in nondimensional units, as the paper does; what it is given and gives is SI.
 
-use super::ScenarioEntry;
+use super::{Measures, ScenarioEntry};
 use crate::{Beliefs, FilterError, Gravity, Units};
 use astro::Cr3bp;
 use astro::cr3bp::{EARTH_MOON_LENGTH as LENGTH, EARTH_MOON_TIME as TIME};
@@ -11,6 +11,7 @@ pub(super) const ENTRY: ScenarioEntry = ScenarioEntry {
     name: "nrho_venting",
     about: "rendezvous on a near-rectilinear halo orbit with a crewed target that vents (Mamich and Zanetti, Sec. IV.B)",
     duration: 5500.0,
+    measures: Measures::RangeAndBearing,
     units: Units {
         length: LENGTH,
         time: TIME,
