@@ -197,10 +197,10 @@ mod tests {
     use super::*;
     use crate::laws::Law;
     use crate::laws::correlation::{self, Sampled};
-    use crate::state::{LidarRows, Target};
+    use crate::state::{Rows, Target};
     use crate::tunable::{Tunables, Value};
     use crate::units::Units;
-    use nalgebra::{DMatrix, DVector};
+    use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
     use numerics::{Generator, expm};
 
     const BUFFER: usize = 4;
@@ -230,7 +230,8 @@ mod tests {
         s0: 0.7,
     };
 
-    fn law(tuning: Tuning, r: Matrix3<f64>, run: u64) -> Milton {
+    /// * `r`: variance of each row of the measurement.
+    fn law(tuning: Tuning, r: &[f64], run: u64) -> Milton {
         let values = [
             Value::Integer(BUFFER as i32),
             Value::Choice(tuning.residuals),
@@ -249,7 +250,8 @@ mod tests {
                 scenario: "none",
                 defaults: &[],
             },
-            r,
+            rows: r.len(),
+            r: Vector6::from_fn(|row, _| r.get(row).copied().unwrap_or(0.0)),
             units: Units::SI,
             study_seed: 1,
             run,
@@ -267,15 +269,15 @@ mod tests {
         let f = expm(&a);
         (0..count)
             .map(|_| {
-                let mut h = LidarRows::zeros();
-                h.fixed_columns_mut::<3>(0)
+                let mut h = Rows::zeros();
+                h.fixed_view_mut::<3, 3>(0, 0)
                     .iter_mut()
                     .for_each(|entry| *entry = normal(g));
                 Step {
                     dt: 1.0,
                     f,
                     h,
-                    innovation: Vector3::from_fn(|_, _| normal(g)),
+                    innovation: Vector6::from_fn(|row, _| if row < 3 { normal(g) } else { 0.0 }),
                     correction: Target::from_fn(|_, _| 0.1 * normal(g)),
                 }
             })
@@ -297,7 +299,7 @@ mod tests {
                     linearisation,
                     ..TUNING
                 },
-                Matrix3::identity(),
+                &[1.0; 3],
                 0,
             );
             let mut s = DVector::from_column_slice(ours.s.as_slice());
@@ -342,7 +344,7 @@ mod tests {
     /// However much an update has told, Q_w leaves no more than 1/q_w of it: a difference of large numbers would not.
     #[test]
     fn information_is_forgotten_without_loss_of_digits() {
-        let mut ours = law(TUNING, Matrix3::identity(), 0);
+        let mut ours = law(TUNING, &[1.0; 3], 0);
         let told = Regression {
             dt_d: Matrix3::new(2e30, 3e24, 0.0, 3e24, 1e20, 1e18, 0.0, 1e18, 4e25),
             dt_c: Vector3::repeat(1.0),
@@ -368,7 +370,7 @@ mod tests {
                     linearisation,
                     ..TUNING
                 },
-                Matrix3::identity(),
+                &[1.0; 3],
                 3,
             );
             for _ in 0..3000 {
@@ -382,7 +384,7 @@ mod tests {
     #[test]
     fn updates_wait_for_a_whole_set_of_new_samples() {
         let g = &mut stream(22, 0, Source::Lidar);
-        let mut ours = law(TUNING, Matrix3::identity(), 0);
+        let mut ours = law(TUNING, &[1.0; 3], 0);
         let mut seen = Vec::new();
         for (k, step) in (1..).zip(steps(g, 40)) {
             let before = (ours.s, ours.updates);
@@ -402,11 +404,11 @@ mod tests {
     fn a_blind_window_is_passed_by_and_counted() {
         let g = &mut stream(23, 0, Source::Lidar);
         let blind = steps(g, 2 * BUFFER + 1).into_iter().map(|step| Step {
-            h: LidarRows::zeros(),
-            innovation: Vector3::zeros(),
+            h: Rows::zeros(),
+            innovation: Vector6::zeros(),
             ..step
         });
-        let start = law(TUNING, Matrix3::identity(), 0);
+        let start = law(TUNING, &[1.0; 3], 0);
         let ours = fed(start.clone(), blind);
         assert_eq!((ours.updates(), ours.skipped(), ours.s), (0, 1, start.s));
         let later = fed(ours, steps(g, 3 * BUFFER));
@@ -422,18 +424,18 @@ mod tests {
             .map(|s| Sampled {
                 dt: s.dt,
                 f: s.f,
-                h: s.h,
-                residual: s.innovation,
+                h: s.h.fixed_rows::<3>(0).into_owned(),
+                residual: s.innovation.fixed_rows::<3>(0).into_owned(),
                 correction: s.correction,
             })
             .collect();
         let restored = correlation::open_loop_residuals(&sampled);
         let uncorrected = |innovation: Option<&Vector3<f64>>, step: &Step| Step {
-            innovation: *innovation.unwrap_or(&step.innovation),
+            innovation: innovation.map_or(step.innovation, |z| z.fixed_resize(0.0)),
             correction: Target::zeros(),
             ..step.clone()
         };
-        let r = Matrix3::identity() * 0.5;
+        let r = &[0.5; 3];
         let printed = law(TUNING, r, 0);
         let consistent = law(Tuning { residuals: 1, ..TUNING }, r, 0);
         let as_recorded = fed(printed.clone(), recorded.clone()).s;
@@ -456,17 +458,19 @@ mod tests {
     #[test]
     fn whitening_takes_out_the_units_of_the_rows() {
         let recorded = steps(&mut stream(25, 0, Source::Lidar), 3 * BUFFER);
-        let r = Matrix3::from_diagonal(&Vector3::new(0.5, 0.02, 0.3));
-        let units = Matrix3::from_diagonal(&Vector3::new(10.0, 0.1, 3.0));
+        let r = [0.5, 0.02, 0.3];
+        let units = [10.0, 0.1, 3.0];
+        let rescale = Matrix6::from_diagonal(&Vector3::from(units).fixed_resize(1.0));
+        let rescaled_r = [0, 1, 2].map(|row| r[row] * units[row] * units[row]);
         for whiten in [true, false] {
             let tuning = Tuning { whiten, ..TUNING };
-            let plain = fed(law(tuning, r, 0), recorded.clone()).s;
+            let plain = fed(law(tuning, &r, 0), recorded.clone()).s;
             let rescaled = recorded.iter().map(|s| Step {
-                h: units * s.h,
-                innovation: units * s.innovation,
+                h: rescale * s.h,
+                innovation: rescale * s.innovation,
                 ..s.clone()
             });
-            let other = fed(law(tuning, units * r * units, 0), rescaled).s;
+            let other = fed(law(tuning, &rescaled_r, 0), rescaled).s;
             let same = (plain - other).amax() < 1e-8 * plain.amax();
             assert_eq!(same, whiten, "{plain} and {other}");
         }
@@ -477,7 +481,7 @@ mod tests {
         let runs = 2000;
         let (mut mean, mut square) = (Vector3::zeros(), Vector3::zeros());
         for run in 0..runs {
-            let e = law(TUNING, Matrix3::identity(), run).s.add_scalar(-TUNING.s0) / TUNING.psi0.sqrt();
+            let e = law(TUNING, &[1.0; 3], run).s.add_scalar(-TUNING.s0) / TUNING.psi0.sqrt();
             mean += e / runs as f64;
             square += e.component_mul(&e) / runs as f64;
         }
