@@ -40,6 +40,18 @@ pub fn process_noise(q_psd: &Vector3<f64>, dt: f64) -> TargetMatrix {
     on_every_axis(&gamma(dt), q_psd)
 }
 
+/// Discrete process noise of a random jerk whose axes are correlated.
+///
+/// * `q_psd`: jerk power spectral density, 3x3, axes N, symmetric, internal units (m2/s5 in SI).
+/// * `dt`: propagation interval, positive.
+/// * returns: `q_hat`, 9x9, ordered r, v, a; positive (semi)definite when `q_psd` is.
+///
+/// Source: Mamich and Zanetti, Eq. (27).
+pub fn process_noise_full(q_psd: &Matrix3<f64>, dt: f64) -> TargetMatrix {
+    let block = gamma(dt);
+    TargetMatrix::from_fn(|i, j| block[(i / 3, j / 3)] * q_psd[(i % 3, j % 3)])
+}
+
 /// Covariance of (r, v, a) of unit density, 3x3, spread over the axes and scaled by the density of each, 9x9.
 fn on_every_axis(block: &Matrix3<f64>, density: &Vector3<f64>) -> TargetMatrix {
     TargetMatrix::from_fn(|i, j| {
@@ -110,7 +122,7 @@ mod tests {
     /// Van Loan's construction: exp([[-A, L q L^T], [0, A^T]] dt) holds F^T and F^-1 Q_hat.
     ///
     /// * `decay`: of the acceleration; `driven`: slot of the block (0 r, 1 v, 2 a) that white noise drives.
-    fn van_loan(q: &Vector3<f64>, decay: f64, driven: usize, with_acceleration: bool, dt: f64) -> TargetMatrix {
+    fn van_loan(q: &Matrix3<f64>, decay: f64, driven: usize, with_acceleration: bool, dt: f64) -> TargetMatrix {
         let mut a = TargetMatrix::zeros();
         for i in 0..if with_acceleration { 6 } else { 3 } {
             a[(i, i + 3)] = 1.0;
@@ -118,8 +130,8 @@ mod tests {
         let mut lq = TargetMatrix::zeros();
         for i in 0..3 {
             a[(6 + i, 6 + i)] = -decay;
-            lq[(3 * driven + i, 3 * driven + i)] = q[i];
         }
+        lq.fixed_view_mut::<3, 3>(3 * driven, 3 * driven).copy_from(q);
         let mut m = SMatrix::<f64, 18, 18>::zeros();
         m.fixed_view_mut::<9, 9>(0, 0).copy_from(&(-a * dt));
         m.fixed_view_mut::<9, 9>(0, 9).copy_from(&(lq * dt));
@@ -135,10 +147,18 @@ mod tests {
     #[test]
     fn process_noise_agrees_with_van_loan() {
         let q = Vector3::new(2.0, 0.5, 3e-4);
-        let one = Vector3::repeat(0.7);
+        let full = Matrix3::new(2.0, -0.4, 0.1, -0.4, 0.5, 0.2, 0.1, 0.2, 0.3);
+        let one = Matrix3::identity() * 0.7;
         for dt in [0.25, 1.0, 7.0] {
             assert!(
-                agree(&process_noise(&q, dt), &van_loan(&q, 0.0, 2, true, dt)),
+                agree(
+                    &process_noise(&q, dt),
+                    &van_loan(&Matrix3::from_diagonal(&q), 0.0, 2, true, dt)
+                ),
+                "dt = {dt}"
+            );
+            assert!(
+                agree(&process_noise_full(&full, dt), &van_loan(&full, 0.0, 2, true, dt)),
                 "dt = {dt}"
             );
             assert!(

@@ -8,7 +8,7 @@
 //!
 //! is solved by clarabel. When the solver does not solve, the last q stays and the case is counted.
 
-use super::correlation::Regression;
+use super::correlation::{DIAGONAL, Regression};
 use super::window::{M_B, RESIDUALS, WHITEN, Window};
 use super::{Adaptation, FilterEntry, Law, Setup, Step};
 use crate::FilterError;
@@ -155,7 +155,7 @@ pub struct ConstrainedQ {
 }
 
 impl ConstrainedQ {
-    fn learn(&mut self, regression: &Regression) {
+    fn learn(&mut self, regression: &Regression<3>) {
         self.information = self.information * self.fade + regression.dt_d / self.r_w;
         self.score = self.score * self.fade + regression.dt_c / self.r_w;
         let h = self.information + self.prior_information;
@@ -237,7 +237,7 @@ impl Adaptation for ConstrainedQ {
     }
 
     fn observe(&mut self, step: Step) -> Result<(), FilterError> {
-        if let Some(regression) = self.window.push(step) {
+        if let Some(regression) = self.window.push(&step, &DIAGONAL) {
             self.learn(&regression);
         }
         Ok(())

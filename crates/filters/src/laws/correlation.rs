@@ -1,5 +1,8 @@
 //! From a window of samples to the regression c = D q for the jerk density (Mamich and Zanetti, Eqs. 13 to 28).
 //!
+//! The measurement has M rows, three of a LiDAR or six of a metrology; q has K entries of the 3x3 density Q, its diagonal
+//! ([`DIAGONAL`], as in the paper) or all of it ([`FULL`]).
+//!
 //! Samples are counted 0..=2 m_b from the oldest. Two least-squares windows of m_b samples, one sample apart, estimate the
 //! error at their own first sample; carried to the same epoch and subtracted they leave a sequence Z without any state
 //! error, only noise:
@@ -11,52 +14,62 @@
 //! indices and transposes wrongly); tests check both by perturbing one sample. In the paper's indices k = w + m_b, A_i of
 //! k is `a[k - i]` and B_j of k is `b[k - j]`.
 //!
-//! Only D^T D (3x3) and D^T c (3) leave this file; the 2475 x 3 matrix D of m_b = 30 is never formed. The window's
-//! pseudo-inverse comes from an orthogonal factorisation of O, since forming M = O^T O squares a condition number that is
+//! Only D^T D (KxK) and D^T c (K) leave this file; the 2475 x 3 matrix D of m_b = 30 is never formed. The window's
+//! pseudo-inverse comes from an orthogonal factorisation of O, since forming O^T O squares a condition number that is
 //! large already (three integrations, seen through angles at kilometres).
 
 use crate::jerk;
-use crate::state::{LidarRows, N_TARGET, Target, TargetMatrix};
-use nalgebra::{DMatrix, Matrix3, SMatrix, Vector3};
+use crate::state::{N_TARGET, Target, TargetMatrix};
+use nalgebra::{DMatrix, Matrix3, SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// Nine states by three measurement rows.
-pub type Gain = SMatrix<f64, N_TARGET, 3>;
+/// Nine states by the rows of a measurement.
+pub type Gain<const M: usize> = SMatrix<f64, N_TARGET, M>;
+/// The rows of a measurement by nine states.
+pub type Observation<const M: usize> = SMatrix<f64, M, N_TARGET>;
+
+/// Row and column of an entry of the jerk density that the regression solves for; off the diagonal it stands for both
+/// entries that symmetry makes equal.
+pub type Entry = (usize, usize);
+/// The entries of a diagonal density.
+pub const DIAGONAL: [Entry; 3] = [(0, 0), (1, 1), (2, 2)];
+/// The entries of a symmetric density, in the order of vech.
+pub const FULL: [Entry; 6] = [(0, 0), (1, 0), (2, 0), (1, 1), (2, 1), (2, 2)];
 
 /// One sample of the window, in the units (and with the row scaling) the law adapts in.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Sampled {
+pub struct Sampled<const M: usize> {
     /// Time since the previous sample.
     pub dt: f64,
     /// Transition from the previous sample to this one, 9x9.
     pub f: TargetMatrix,
-    /// Measurement rows, 3x9; zero rows where nothing was measured.
-    pub h: LidarRows,
-    /// Innovation, 3; zero where nothing was measured.
-    pub residual: Vector3<f64>,
+    /// Measurement rows, Mx9; zero rows where nothing was measured.
+    pub h: Observation<M>,
+    /// Innovation, M; zero where nothing was measured.
+    pub residual: SVector<f64, M>,
     /// What the filter's update added to the nine states.
     pub correction: Target,
 }
 
 /// The normal equations of c = D q.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Regression {
-    /// D^T D, 3x3.
-    pub dt_d: Matrix3<f64>,
-    /// D^T c, 3, where c is the measured autocorrelation less the part that measurement noise explains.
-    pub dt_c: Vector3<f64>,
+pub struct Regression<const K: usize> {
+    /// D^T D, KxK.
+    pub dt_d: SMatrix<f64, K, K>,
+    /// D^T c, K, where c is the measured autocorrelation less the part that measurement noise explains.
+    pub dt_c: SVector<f64, K>,
 }
 
 /// Coefficients of Z_w for one w.
 #[derive(Clone, Debug)]
-pub struct Difference {
+pub struct Difference<const M: usize> {
     /// First sample of the older window.
     pub first: usize,
     /// The difference itself, 9.
     pub z: Target,
-    /// `A_w[l]` for l = w..=w+m_b, each 9x3.
-    pub a: Vec<Gain>,
+    /// `A_w[l]` for l = w..=w+m_b, each 9xM.
+    pub a: Vec<Gain<M>>,
     /// `B_w[j]` for j = w..w+m_b, each 9x9.
     pub b: Vec<TargetMatrix>,
 }
@@ -64,7 +77,7 @@ pub struct Difference {
 /// Residuals as they would have been had the filter not corrected itself since the oldest sample.
 ///
 /// d_{j+1} = F_j (d_j + correction_j) from d = 0, and each residual gains H_j d_j. Z does not depend on where d starts.
-pub fn open_loop_residuals(samples: &[Sampled]) -> Vec<Vector3<f64>> {
+pub fn open_loop_residuals<const M: usize>(samples: &[Sampled<M>]) -> Vec<SVector<f64, M>> {
     let mut d = Target::zeros();
     let mut out = Vec::with_capacity(samples.len());
     for (j, sample) in samples.iter().enumerate() {
@@ -78,10 +91,10 @@ pub fn open_loop_residuals(samples: &[Sampled]) -> Vec<Vector3<f64>> {
 
 /// Pseudo-inverse of the stacked rows of one window.
 ///
-/// * `rows`: O, one 3x9 block for each sample.
-/// * returns: M^-1 O^T as one 9x3 block for each sample, or `None` when the window does not observe all nine states.
-fn pseudo_inverse(rows: &VecDeque<LidarRows>) -> Option<Vec<Gain>> {
-    let mut q = DMatrix::from_fn(3 * rows.len(), N_TARGET, |i, j| rows[i / 3][(i % 3, j)]);
+/// * `rows`: O, one Mx9 block for each sample.
+/// * returns: (O^T O)^-1 O^T as one 9xM block for each sample, or `None` when the window does not observe all nine states.
+fn pseudo_inverse<const M: usize>(rows: &VecDeque<Observation<M>>) -> Option<Vec<Gain<M>>> {
+    let mut q = DMatrix::from_fn(M * rows.len(), N_TARGET, |i, j| rows[i / M][(i % M, j)]);
     let mut r = TargetMatrix::zeros();
     // O = Q R by Gram-Schmidt, each column orthogonalised twice: as accurate as Householder and as short as the definition.
     for j in 0..N_TARGET {
@@ -110,7 +123,7 @@ fn pseudo_inverse(rows: &VecDeque<LidarRows>) -> Option<Vec<Gain>> {
         }
         q.column_mut(i).unscale_mut(r[(i, i)]);
     }
-    let gain = |sample: usize| Gain::from_fn(|i, row| q[(3 * sample + row, i)]);
+    let gain = |sample: usize| Gain::from_fn(|i, row| q[(M * sample + row, i)]);
     Some((0..rows.len()).map(gain).collect())
 }
 
@@ -118,10 +131,10 @@ fn pseudo_inverse(rows: &VecDeque<LidarRows>) -> Option<Vec<Gain>> {
 ///
 /// * `samples`: 2 m_b + 1, oldest first.
 /// * returns: for each window one block per sample, or `None` when a window is singular.
-fn window_gains(samples: &[Sampled], m_b: usize) -> Option<Vec<Vec<Gain>>> {
+fn window_gains<const M: usize>(samples: &[Sampled<M>], m_b: usize) -> Option<Vec<Vec<Gain<M>>>> {
     // Going backwards, each window inherits the rows H_l Phi_{l,start} of the one after it times one transition.
     let mut gains = vec![Vec::new(); m_b + 2];
-    let mut rows: VecDeque<LidarRows> = VecDeque::with_capacity(m_b + 1);
+    let mut rows: VecDeque<Observation<M>> = VecDeque::with_capacity(m_b + 1);
     for start in (0..samples.len()).rev() {
         if let Some(next) = samples.get(start + 1) {
             rows.iter_mut().for_each(|row| *row *= next.f);
@@ -142,13 +155,13 @@ fn window_gains(samples: &[Sampled], m_b: usize) -> Option<Vec<Vec<Gain>>> {
 /// * `gains`: of every window, from [`window_gains`].
 /// * `w`: first sample of the older window, 0..=m_b.
 /// * `b_from`: coefficients of process noise before this step are not needed and left out of `b`.
-fn difference(
-    samples: &[Sampled],
-    residuals: &[Vector3<f64>],
-    gains: &[Vec<Gain>],
+fn difference<const M: usize>(
+    samples: &[Sampled<M>],
+    residuals: &[SVector<f64, M>],
+    gains: &[Vec<Gain<M>>],
     w: usize,
     b_from: usize,
-) -> Difference {
+) -> Difference<M> {
     let m_b = gains[w].len();
     let f = &samples[w + 1].f;
     let mut a = vec![Gain::zeros(); m_b + 1];
@@ -180,7 +193,11 @@ fn difference(
 ///
 /// * `samples`: 2 m_b + 1, oldest first.
 /// * returns: `None` when there are too few samples or a window is singular.
-pub fn all_differences(samples: &[Sampled], m_b: usize, open_loop: bool) -> Option<Vec<Difference>> {
+pub fn all_differences<const M: usize>(
+    samples: &[Sampled<M>],
+    m_b: usize,
+    open_loop: bool,
+) -> Option<Vec<Difference<M>>> {
     if samples.len() != 2 * m_b + 1 || m_b == 0 {
         return None;
     }
@@ -189,7 +206,7 @@ pub fn all_differences(samples: &[Sampled], m_b: usize, open_loop: bool) -> Opti
     Some((0..=m_b).map(one).collect())
 }
 
-fn residuals_of(samples: &[Sampled], open_loop: bool) -> Vec<Vector3<f64>> {
+fn residuals_of<const M: usize>(samples: &[Sampled<M>], open_loop: bool) -> Vec<SVector<f64, M>> {
     if open_loop {
         open_loop_residuals(samples)
     } else {
@@ -197,20 +214,27 @@ fn residuals_of(samples: &[Sampled], open_loop: bool) -> Vec<Vector3<f64>> {
     }
 }
 
-/// The normal equations of Eq. (28) before the square root: c = D q with one column of D for each axis of q.
+/// The normal equations of Eq. (28) before the square root: c = D q with one column of D for each entry of q.
 ///
 /// * `samples`: 2 m_b + 1, oldest first.
-/// * `r`: measurement noise covariance in the units (and row scaling) of the samples, 3x3.
+/// * `r`: measurement noise covariance in the units (and row scaling) of the samples, MxM.
 /// * `open_loop`: whether to undo the filter's corrections first.
+/// * `entries`: of the density, those that q holds; the others are zero.
 /// * returns: `None` when there are too few samples or a window does not observe all nine states.
-pub fn regression(samples: &[Sampled], m_b: usize, r: &Matrix3<f64>, open_loop: bool) -> Option<Regression> {
+pub fn regression<const M: usize, const K: usize>(
+    samples: &[Sampled<M>],
+    m_b: usize,
+    r: &SMatrix<f64, M, M>,
+    open_loop: bool,
+    entries: &[Entry; K],
+) -> Option<Regression<K>> {
     if samples.len() != 2 * m_b + 1 || m_b == 0 {
         return None;
     }
     let (residuals, gains) = (residuals_of(samples, open_loop), window_gains(samples, m_b)?);
     let factors: Vec<Matrix3<f64>> = samples[m_b + 1..].iter().map(|s| jerk::gamma_factor(s.dt)).collect();
-    // Z_k is correlated with its predecessors through samples m_b..=2 m_b only. Each Q_hat column is rank three: B times
-    // (factor of Gamma x e_axis), 9x3 for each axis, side by side in place of B.
+    // Z_k is correlated with its predecessors through samples m_b..=2 m_b only. What a unit density on one
+    // axis does has rank three: B times (factor of Gamma x e_axis), 9x3 for each axis, side by side in place of B.
     let driven = |w| {
         let mut one = difference(samples, &residuals, &gains, w, m_b);
         for (b, factor) in one.b.iter_mut().zip(&factors) {
@@ -220,8 +244,8 @@ pub fn regression(samples: &[Sampled], m_b: usize, r: &Matrix3<f64>, open_loop: 
     };
     let newest = driven(m_b);
     let mut out = Regression {
-        dt_d: Matrix3::zeros(),
-        dt_c: Vector3::zeros(),
+        dt_d: SMatrix::zeros(),
+        dt_c: SVector::zeros(),
     };
     for p in 0..=m_b {
         let earlier = driven(m_b - p);
@@ -230,14 +254,20 @@ pub fn regression(samples: &[Sampled], m_b: usize, r: &Matrix3<f64>, open_loop: 
             noise += newest.a[l - m_b] * r * earlier.a[l - earlier.first].transpose();
         }
         let c = newest.z * earlier.z.transpose() - noise;
-        let mut columns = [TargetMatrix::zeros(); 3];
+        let mut columns = [TargetMatrix::zeros(); K];
         for (now, then) in newest.b.iter().zip(&earlier.b) {
-            for (axis, column) in columns.iter_mut().enumerate() {
-                let (now, then) = (now.fixed_columns::<3>(3 * axis), then.fixed_columns::<3>(3 * axis));
-                column.gemm(1.0, &now, &then.transpose(), 1.0);
+            for (&(i, j), column) in entries.iter().zip(&mut columns) {
+                let mut add = |i: usize, j: usize| {
+                    let (now, then) = (now.fixed_columns::<3>(3 * i), then.fixed_columns::<3>(3 * j));
+                    column.gemm(1.0, &now, &then.transpose(), 1.0);
+                };
+                add(i, j);
+                if i != j {
+                    add(j, i);
+                }
             }
         }
-        for i in 0..3 {
+        for i in 0..K {
             out.dt_c[i] += inner(&columns[i], &c, p == 0);
             for j in 0..=i {
                 let d = inner(&columns[i], &columns[j], p == 0);
@@ -282,7 +312,7 @@ fn inner(a: &TargetMatrix, b: &TargetMatrix, vech: bool) -> f64 {
 #[allow(clippy::needless_range_loop, reason = "indices are the paper's")]
 mod tests {
     use super::*;
-    use nalgebra::DVector;
+    use nalgebra::{DVector, Vector3, Vector6};
     use numerics::{Generator, Source, expm, stream};
     use rand_distr::{Distribution, StandardNormal};
 
@@ -293,8 +323,8 @@ mod tests {
     }
 
     /// A window of a time-varying system that resembles the real one: three integrators with a gravity gradient, seen
-    /// through rows that turn. Steps are of unequal length.
-    fn window(g: &mut Generator) -> Vec<Sampled> {
+    /// through rows that turn, three of the position or six of position and velocity. Steps are of unequal length.
+    fn window<const M: usize>(g: &mut Generator) -> Vec<Sampled<M>> {
         (0..2 * M_B + 1)
             .map(|k| {
                 let dt = 1.0 + 0.25 * (k % 3) as f64;
@@ -307,9 +337,9 @@ mod tests {
                         a[(3 + i, j)] = 0.02 * normal(g);
                     }
                 }
-                let mut h = LidarRows::zeros();
-                for i in 0..3 {
-                    for j in 0..3 {
+                let mut h = Observation::zeros();
+                for i in 0..M {
+                    for j in 0..M {
                         h[(i, j)] = normal(g);
                     }
                 }
@@ -317,7 +347,7 @@ mod tests {
                     dt,
                     f: expm(&(a * dt)),
                     h,
-                    residual: Vector3::from_fn(|_, _| normal(g)),
+                    residual: SVector::from_fn(|_, _| normal(g)),
                     correction: Target::from_fn(|_, _| normal(g)),
                 }
             })
@@ -325,7 +355,7 @@ mod tests {
     }
 
     /// Z as the paper defines it, Eqs. (16) to (19), by normal equations.
-    fn z_by_definition(samples: &[Sampled], w: usize) -> Target {
+    fn z_by_definition<const M: usize>(samples: &[Sampled<M>], w: usize) -> Target {
         let estimate = |start: usize| {
             let (mut m, mut oy, mut phi) = (TargetMatrix::zeros(), Target::zeros(), TargetMatrix::identity());
             for l in start..start + M_B {
@@ -343,7 +373,7 @@ mod tests {
 
     #[test]
     fn z_follows_its_definition() {
-        let samples = window(&mut stream(1, 0, Source::Lidar));
+        let samples = window::<3>(&mut stream(1, 0, Source::Lidar));
         for d in all_differences(&samples, M_B, false).unwrap() {
             let expected = z_by_definition(&samples, d.first);
             assert!(
@@ -357,7 +387,7 @@ mod tests {
     #[test]
     fn z_annihilates_any_state_error() {
         let g = &mut stream(2, 0, Source::Lidar);
-        let mut samples = window(g);
+        let mut samples = window::<3>(g);
         let mut e = Target::from_fn(|_, _| 100.0 * normal(g));
         for k in 0..samples.len() {
             if k > 0 {
@@ -372,11 +402,16 @@ mod tests {
 
     #[test]
     fn a_is_the_answer_to_one_perturbed_measurement() {
-        let samples = window(&mut stream(3, 0, Source::Lidar));
+        answers_to_measurements::<3>();
+        answers_to_measurements::<6>();
+    }
+
+    fn answers_to_measurements<const M: usize>() {
+        let samples = window::<M>(&mut stream(3, 0, Source::Lidar));
         let all = all_differences(&samples, M_B, false).unwrap();
         for d in &all {
             for l in 0..samples.len() {
-                for row in 0..3 {
+                for row in 0..M {
                     let mut perturbed = samples.clone();
                     perturbed[l].residual[row] += 1.0;
                     let answer = z_by_definition(&perturbed, d.first) - z_by_definition(&samples, d.first);
@@ -384,7 +419,7 @@ mod tests {
                     let expected = known.map_or_else(Target::zeros, |a| a.column(row).into_owned());
                     assert!(
                         (answer - expected).amax() < 1e-8,
-                        "w = {}, sample {l}, row {row}",
+                        "{M} rows, w = {}, sample {l}, row {row}",
                         d.first
                     );
                 }
@@ -394,7 +429,12 @@ mod tests {
 
     #[test]
     fn b_is_the_answer_to_one_perturbed_step() {
-        let samples = window(&mut stream(4, 0, Source::Lidar));
+        answers_to_steps::<3>();
+        answers_to_steps::<6>();
+    }
+
+    fn answers_to_steps<const M: usize>() {
+        let samples = window::<M>(&mut stream(4, 0, Source::Lidar));
         for d in all_differences(&samples, M_B, false).unwrap() {
             for j in 0..2 * M_B {
                 for state in 0..N_TARGET {
@@ -412,7 +452,7 @@ mod tests {
                     let expected = known.map_or_else(Target::zeros, |b| b.column(state).into_owned());
                     assert!(
                         (answer - expected).amax() < 1e-7,
-                        "w = {}, step {j}, state {state}",
+                        "{M} rows, w = {}, step {j}, state {state}",
                         d.first
                     );
                 }
@@ -424,7 +464,7 @@ mod tests {
     fn open_loop_residuals_undo_the_corrections() {
         // Errors that evolve freely against the same errors seen by a filter that corrects itself by arbitrary amounts.
         let g = &mut stream(5, 0, Source::Lidar);
-        let mut samples = window(g);
+        let mut samples = window::<3>(g);
         let (mut free, mut filtered) = (Target::from_fn(|_, _| normal(g)), Target::zeros());
         let start = free;
         let mut expected = Vec::new();
@@ -451,25 +491,36 @@ mod tests {
     /// (vec column-stacked, which the Kronecker identity needs; vech takes one triangle of the first block).
     #[test]
     fn normal_equations_agree_with_the_matrix_that_is_never_formed() {
-        let samples = window(&mut stream(6, 0, Source::Lidar));
         let r = Matrix3::new(0.5, 0.1, 0.0, 0.1, 0.8, -0.2, 0.0, -0.2, 0.3);
+        agrees_with_the_matrix(&r, &DIAGONAL);
+        agrees_with_the_matrix(&r, &FULL);
+        let mut six = SMatrix::from_diagonal(&Vector6::new(0.5, 0.8, 0.3, 0.02, 0.1, 0.07));
+        six[(1, 4)] = -0.1;
+        six[(4, 1)] = -0.1;
+        agrees_with_the_matrix(&six, &DIAGONAL);
+        agrees_with_the_matrix(&six, &FULL);
+    }
+
+    fn agrees_with_the_matrix<const M: usize, const K: usize>(r: &SMatrix<f64, M, M>, entries: &[Entry; K]) {
+        let samples = window::<M>(&mut stream(6, 0, Source::Lidar));
         let all = all_differences(&samples, M_B, false).unwrap();
         let newest = &all[M_B];
         let dynamic = |m: &TargetMatrix| DMatrix::from_column_slice(9, 9, m.as_slice());
-        let gain = |m: &Gain| DMatrix::from_column_slice(9, 3, m.as_slice());
+        let gain = |m: &Gain<M>| DMatrix::from_column_slice(9, M, m.as_slice());
         let (mut d_rows, mut c_rows) = (Vec::new(), Vec::new());
         for p in 0..=M_B {
             let earlier = &all[M_B - p];
-            let mut block = DMatrix::zeros(81, 3);
+            let mut block = DMatrix::zeros(81, K);
             for j in M_B..2 * M_B - p {
                 let b = dynamic(&newest.b[j - M_B]);
                 let b_earlier = dynamic(&earlier.b[j - earlier.first]);
                 let kron = b_earlier.kronecker(&b);
-                for axis in 0..3 {
-                    let mut q = Vector3::zeros();
-                    q[axis] = 1.0;
-                    let q_hat = dynamic(&jerk::process_noise(&q, samples[j + 1].dt));
-                    let mut column = block.column_mut(axis);
+                for (entry, (row, column)) in entries.iter().enumerate() {
+                    let mut q = Matrix3::zeros();
+                    q[(*row, *column)] = 1.0;
+                    q[(*column, *row)] = 1.0;
+                    let q_hat = dynamic(&jerk::process_noise_full(&q, samples[j + 1].dt));
+                    let mut column = block.column_mut(entry);
                     column += &kron * vec(&q_hat);
                 }
             }
@@ -491,10 +542,10 @@ mod tests {
         assert_eq!(d_rows.len(), M_B * 81 + 45);
         let (d, c) = (DMatrix::from_rows(&d_rows), DVector::from_vec(c_rows));
         let (dt_d, dt_c) = (d.transpose() * &d, d.transpose() * c);
-        let ours = regression(&samples, M_B, &r, false).unwrap();
-        for i in 0..3 {
+        let ours = regression(&samples, M_B, r, false, entries).unwrap();
+        for i in 0..K {
             assert!((ours.dt_c[i] - dt_c[i]).abs() < 1e-9 * dt_c.amax());
-            for j in 0..3 {
+            for j in 0..K {
                 assert!((ours.dt_d[(i, j)] - dt_d[(i, j)]).abs() < 1e-9 * dt_d.amax());
             }
         }
@@ -503,9 +554,9 @@ mod tests {
     #[test]
     fn missing_rows_are_left_out_and_blind_windows_refused() {
         let g = &mut stream(7, 0, Source::Lidar);
-        let mut samples = window(g);
-        let blind = |s: &mut Sampled| {
-            s.h = LidarRows::zeros();
+        let mut samples = window::<3>(g);
+        let blind = |s: &mut Sampled<3>| {
+            s.h = Observation::zeros();
             s.residual = Vector3::zeros();
         };
         blind(&mut samples[M_B + 1]);
@@ -515,43 +566,54 @@ mod tests {
             all.iter()
                 .all(|d| d.a.get(M_B + 1 - d.first).is_none_or(|a| a.amax() < 1e-12))
         );
-        assert!(regression(&samples, M_B, &r, false).is_some());
+        assert!(regression(&samples, M_B, &r, false, &DIAGONAL).is_some());
         samples.iter_mut().skip(3).take(3).for_each(blind);
-        assert_eq!(regression(&samples, M_B, &r, false), None);
-        assert_eq!(regression(&samples[1..], M_B, &r, false), None);
+        assert_eq!(regression(&samples, M_B, &r, false, &DIAGONAL), None);
+        assert_eq!(regression(&samples[1..], M_B, &r, false, &DIAGONAL), None);
     }
 
     /// A Kalman filter with a wrong Q watches three integrators driven by a known jerk density. The regression on
     /// open-loop residuals must find that density without bias; on the filter's own innovations it need not.
     ///
-    /// * returns: ratio of estimated to true density per axis, and its standard error from independent batches.
-    fn recovered_density(open_loop: bool) -> (Vector3<f64>, Vector3<f64>) {
-        let (m_b, dt, q_true, sigma) = (8, 1.0, Vector3::new(0.4, 1.0, 2.5), 0.3);
+    /// * `h`, `sigma`: rows of the measurement and their noise, by which the rows are divided.
+    /// * `density`: 3x3.
+    /// * returns: mean of the estimated entries, and its standard error from independent batches.
+    fn recovered_density<const M: usize, const K: usize>(
+        h: &Observation<M>,
+        sigma: &SVector<f64, M>,
+        density: &Matrix3<f64>,
+        entries: &[Entry; K],
+        open_loop: bool,
+    ) -> (SVector<f64, K>, SVector<f64, K>) {
+        let (m_b, dt) = (8, 1.0);
         let mut a = TargetMatrix::zeros();
         for i in 0..6 {
             a[(i, i + 3)] = 1.0;
         }
         let f = expm(&(a * dt));
-        let mut h = LidarRows::zeros();
-        h.fixed_view_mut::<3, 3>(0, 0)
-            .copy_from(&Matrix3::new(1.0, 0.2, 0.0, -0.1, 0.8, 0.3, 0.0, 0.1, 1.2));
-        let r = Matrix3::identity() * (sigma * sigma);
-        let q_filter = jerk::process_noise(&(q_true * 9.0), dt);
-        let draw = numerics::spd::cholesky(&jerk::process_noise(&q_true, dt)).unwrap();
-        let batches: Vec<Vector3<f64>> = (0..30)
+        let h = SMatrix::<f64, M, M>::from_diagonal(&sigma.map(|s| 1.0 / s)) * h;
+        let r = SMatrix::<f64, M, M>::identity();
+        let q_filter = jerk::process_noise_full(&(density * 9.0), dt);
+        let draw = numerics::spd::cholesky(&jerk::process_noise_full(density, dt)).unwrap();
+        let batches: Vec<SVector<f64, K>> = (0..30)
             .map(|batch| {
                 let g = &mut stream(8, batch, Source::Lidar);
                 let (mut e, mut p) = (Target::zeros(), TargetMatrix::identity());
                 let mut samples = Vec::new();
-                let (mut dt_d, mut dt_c) = (Matrix3::zeros(), Vector3::zeros());
+                let (mut dt_d, mut dt_c) = (SMatrix::<f64, K, K>::zeros(), SVector::<f64, K>::zeros());
                 for _ in 0..4000 {
                     e = f * e + draw * Target::from_fn(|_, _| normal(g));
                     p = f * p * f.transpose() + q_filter;
-                    let residual = h * e + Vector3::from_fn(|_, _| sigma * normal(g));
-                    let gain = p * h.transpose() * (h * p * h.transpose() + r).try_inverse().unwrap();
+                    let residual = h * e + SVector::<f64, M>::from_fn(|_, _| normal(g));
+                    let l = numerics::spd::cholesky(&(h * p * h.transpose() + r)).unwrap();
+                    let mut gain = p * h.transpose();
+                    for mut row in gain.row_iter_mut() {
+                        let solved = numerics::spd::cholesky_solve(&l, &row.transpose());
+                        row.copy_from(&solved.transpose());
+                    }
                     let correction = gain * residual;
                     e -= correction;
-                    p -= gain * h * p;
+                    p = numerics::spd::symmetrised(&(p - gain * h * p));
                     samples.push(Sampled {
                         dt,
                         f,
@@ -560,41 +622,80 @@ mod tests {
                         correction,
                     });
                     if samples.len() == 2 * m_b + 1 {
-                        let found = regression(&samples, m_b, &r, open_loop).unwrap();
+                        let found = regression(&samples, m_b, &r, open_loop, entries).unwrap();
                         dt_d += found.dt_d;
                         dt_c += found.dt_c;
                         samples.drain(..m_b + 1);
                     }
                 }
-                (dt_d.try_inverse().unwrap() * dt_c).component_div(&q_true)
+                numerics::spd::cholesky_solve(&numerics::spd::cholesky(&dt_d).unwrap(), &dt_c)
             })
             .collect();
         let n = batches.len() as f64;
-        let mean = batches.iter().sum::<Vector3<f64>>() / n;
-        let variance = batches.iter().map(|b| (b - mean).map(|v| v * v)).sum::<Vector3<f64>>() / (n - 1.0);
+        let mean = batches.iter().sum::<SVector<f64, K>>() / n;
+        let variance = batches
+            .iter()
+            .map(|b| (b - mean).map(|v| v * v))
+            .sum::<SVector<f64, K>>()
+            / (n - 1.0);
         (mean, (variance / n).map(f64::sqrt))
+    }
+
+    /// Every entry of `density` within 3.5 standard errors, and these below `resolution` of its largest entry.
+    fn assert_recovered<const M: usize, const K: usize>(
+        h: &Observation<M>,
+        sigma: &SVector<f64, M>,
+        density: &Matrix3<f64>,
+        entries: &[Entry; K],
+        resolution: f64,
+    ) {
+        let (mean, error) = recovered_density(h, sigma, density, entries, true);
+        for (i, entry) in entries.iter().enumerate() {
+            let (mean, error, truth) = (mean[i], error[i], density[*entry]);
+            assert!(
+                (mean - truth).abs() < 3.5 * error,
+                "{M} rows, {entry:?}: {mean} +- {error} for {truth}"
+            );
+            assert!(
+                error < resolution * density.amax(),
+                "{M} rows, {entry:?}: too few samples to tell, {error}"
+            );
+        }
+    }
+
+    /// Three rows of the position that are not orthogonal.
+    fn oblique() -> Observation<3> {
+        let mut h = Observation::zeros();
+        h.fixed_view_mut::<3, 3>(0, 0)
+            .copy_from(&Matrix3::new(1.0, 0.2, 0.0, -0.1, 0.8, 0.3, 0.0, 0.1, 1.2));
+        h
     }
 
     #[test]
     fn open_loop_residuals_recover_the_density_and_innovations_do_not() {
-        let (ratio, error) = recovered_density(true);
-        for axis in 0..3 {
-            assert!(
-                (ratio[axis] - 1.0).abs() < 3.5 * error[axis],
-                "axis {axis}: {} +- {}",
-                ratio[axis],
-                error[axis]
-            );
-            assert!(
-                error[axis] < 0.1,
-                "axis {axis}: too few samples to tell, {}",
-                error[axis]
-            );
-        }
-        let (ratio, error) = recovered_density(false);
+        let density = Matrix3::from_diagonal(&Vector3::new(0.4, 1.0, 2.5));
+        let (h, sigma) = (oblique(), Vector3::repeat(0.3));
+        assert_recovered(&h, &sigma, &density, &DIAGONAL, 0.1);
+        let (mean, error) = recovered_density(&h, &sigma, &density, &DIAGONAL, false);
         assert!(
-            (0..3).all(|i| (ratio[i] - 1.0).abs() > 5.0 * error[i]),
-            "innovations: {ratio} +- {error}"
+            (0..3).all(|i| (mean[i] - density[(i, i)]).abs() > 5.0 * error[i]),
+            "innovations: {mean} +- {error}"
         );
+    }
+
+    /// Position and velocity measured in full, one a hundred times more precise than the other in numbers.
+    #[test]
+    fn a_state_measured_in_full_recovers_the_density() {
+        let density = Matrix3::from_diagonal(&Vector3::new(0.4, 1.0, 2.5));
+        let sigma = Vector6::new(1.0, 1.0, 1.0, 1e-2, 1e-2, 1e-2);
+        assert_recovered(&Observation::<6>::identity(), &sigma, &density, &DIAGONAL, 0.1);
+    }
+
+    #[test]
+    fn entries_off_the_diagonal_are_recovered() {
+        let density = Matrix3::new(2.0, -0.9, 0.3, -0.9, 1.0, 0.2, 0.3, 0.2, 0.4);
+        assert_recovered(&oblique(), &Vector3::repeat(0.3), &density, &FULL, 0.1);
+        let sigma = Vector6::new(1.0, 1.0, 1.0, 1e-2, 1e-2, 1e-2);
+        assert_recovered(&Observation::<6>::identity(), &sigma, &density, &FULL, 0.1);
     }
 }

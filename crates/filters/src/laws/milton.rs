@@ -9,7 +9,7 @@
 //! * `linearisation`: *printed* feeds c to D diag(2 s), whose fixed point lies at half of q; *consistent* linearises
 //!   about the predicted s, feeding c + D q(s).
 
-use super::correlation::Regression;
+use super::correlation::{DIAGONAL, Regression};
 use super::window::{M_B, READING, RESIDUALS, WHITEN, Window};
 use super::{Adaptation, FilterEntry, Law, Setup, Step};
 use crate::FilterError;
@@ -83,7 +83,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         },
         Preset {
             name: "whitened",
-            about: "as printed, but with the LiDAR rows divided by their standard deviations",
+            about: "as printed, but with the measured rows divided by their standard deviations",
             sets: &[("whiten", "true")],
         },
     ],
@@ -128,7 +128,7 @@ pub struct Milton {
 
 impl Milton {
     /// Eq. (29) with the regression c = D q, q = s * s.
-    fn learn(&mut self, regression: &Regression) -> Result<(), FilterError> {
+    fn learn(&mut self, regression: &Regression<3>) -> Result<(), FilterError> {
         let failed = FilterError::InformationNotSpd {
             law: "milton",
             update: self.updates + 1,
@@ -173,7 +173,7 @@ impl Adaptation for Milton {
     }
 
     fn observe(&mut self, step: Step) -> Result<(), FilterError> {
-        match self.window.push(step) {
+        match self.window.push(&step, &DIAGONAL) {
             Some(regression) => self.learn(&regression),
             None => Ok(()),
         }
@@ -264,20 +264,24 @@ mod tests {
 
     /// Samples of three integrators seen through rows that turn, corrected by arbitrary amounts.
     fn steps(g: &mut Generator, count: usize) -> Vec<Step> {
+        steps_of(3, g, count)
+    }
+
+    fn steps_of(rows: usize, g: &mut Generator, count: usize) -> Vec<Step> {
         let mut a = TargetMatrix::zeros();
         (0..6).for_each(|i| a[(i, i + 3)] = 1.0);
         let f = expm(&a);
         (0..count)
             .map(|_| {
                 let mut h = Rows::zeros();
-                h.fixed_view_mut::<3, 3>(0, 0)
+                h.view_mut((0, 0), (rows, rows))
                     .iter_mut()
                     .for_each(|entry| *entry = normal(g));
                 Step {
                     dt: 1.0,
                     f,
                     h,
-                    innovation: Vector6::from_fn(|row, _| if row < 3 { normal(g) } else { 0.0 }),
+                    innovation: Vector6::from_fn(|row, _| if row < rows { normal(g) } else { 0.0 }),
                     correction: Target::from_fn(|_, _| 0.1 * normal(g)),
                 }
             })
@@ -419,7 +423,7 @@ mod tests {
     #[test]
     fn consistent_residuals_are_the_innovations_of_a_filter_that_never_corrects() {
         let recorded = steps(&mut stream(24, 0, Source::Lidar), 2 * BUFFER + 1);
-        let sampled: Vec<Sampled> = recorded
+        let sampled: Vec<Sampled<3>> = recorded
             .iter()
             .map(|s| Sampled {
                 dt: s.dt,
@@ -457,22 +461,21 @@ mod tests {
     /// Whitened, the law does not see in which unit a row was measured; as printed it does.
     #[test]
     fn whitening_takes_out_the_units_of_the_rows() {
-        let recorded = steps(&mut stream(25, 0, Source::Lidar), 3 * BUFFER);
-        let r = [0.5, 0.02, 0.3];
-        let units = [10.0, 0.1, 3.0];
-        let rescale = Matrix6::from_diagonal(&Vector3::from(units).fixed_resize(1.0));
-        let rescaled_r = [0, 1, 2].map(|row| r[row] * units[row] * units[row]);
-        for whiten in [true, false] {
+        let (r, units) = ([0.5, 0.02, 0.3, 1e-4, 3e-4, 2e-4], [10.0, 0.1, 3.0, 1e3, 0.5, 20.0]);
+        let rescale = Matrix6::from_diagonal(&Vector6::from(units));
+        let rescaled_r: Vec<f64> = r.iter().zip(units).map(|(r, unit)| r * unit * unit).collect();
+        for (rows, whiten) in [(3, true), (3, false), (6, true), (6, false)] {
+            let recorded = steps_of(rows, &mut stream(25, 0, Source::Lidar), 3 * BUFFER);
             let tuning = Tuning { whiten, ..TUNING };
-            let plain = fed(law(tuning, &r, 0), recorded.clone()).s;
+            let plain = fed(law(tuning, &r[..rows], 0), recorded.clone()).s;
             let rescaled = recorded.iter().map(|s| Step {
                 h: rescale * s.h,
                 innovation: rescale * s.innovation,
                 ..s.clone()
             });
-            let other = fed(law(tuning, &rescaled_r, 0), rescaled).s;
+            let other = fed(law(tuning, &rescaled_r[..rows], 0), rescaled).s;
             let same = (plain - other).amax() < 1e-8 * plain.amax();
-            assert_eq!(same, whiten, "{plain} and {other}");
+            assert_eq!(same, whiten, "{rows} rows: {plain} and {other}");
         }
     }
 

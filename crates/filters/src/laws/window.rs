@@ -1,14 +1,14 @@
 //! The buffer of samples that laws on innovation correlation share: when it is full it yields one regression.
 
-use super::correlation::{self, Regression, Sampled};
+use super::correlation::{self, Entry, Regression, Sampled};
 use super::{Setup, Step};
 use crate::FilterError;
 use crate::tunable::{Kind, Tunable};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// Fewest samples with which a window of three rows each can observe nine states.
+/// Fewest samples with which a window of three rows each can observe nine states; with six rows two would do.
 const SHORTEST: i32 = 3;
 const READINGS: &[&str] = &["printed", "consistent"];
 
@@ -39,20 +39,15 @@ pub(super) const RESIDUALS: Tunable = Tunable {
 /// Tunable `whiten`.
 pub(super) const WHITEN: Tunable = Tunable {
     name: "whiten",
-    about: "divide the LiDAR rows by their standard deviations before adapting",
+    about: "divide the measured rows by their standard deviations before adapting",
     kind: Kind::Boolean { start: false },
 };
 
-/// Samples not yet adapted to, and how to look at them.
+/// Samples not yet adapted to, of measurements with up to three rows or up to six.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct Window {
-    m_b: usize,
-    open_loop: bool,
-    r: Matrix3<f64>,
-    row_scale: Vector3<f64>,
-    /// Oldest first.
-    samples: VecDeque<Sampled>,
-    skipped: i32,
+pub(super) enum Window {
+    Three(Samples<3>),
+    Six(Samples<6>),
 }
 
 impl Window {
@@ -61,20 +56,10 @@ impl Window {
     /// # Errors
     /// When one of them is out of range.
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
-        let whiten = setup.tunables.boolean(WHITEN.name)?;
-        let variances = setup.r.fixed_rows::<3>(0).into_owned();
-        let inverse_sigma = variances.map(|variance| 1.0 / variance.sqrt());
-        Ok(Self {
-            m_b: setup.tunables.integer(M_B.name)? as usize,
-            open_loop: setup.tunables.choice(RESIDUALS.name)? == 1,
-            r: if whiten {
-                Matrix3::identity()
-            } else {
-                Matrix3::from_diagonal(&variances)
-            },
-            row_scale: if whiten { inverse_sigma } else { Vector3::repeat(1.0) },
-            samples: VecDeque::new(),
-            skipped: 0,
+        Ok(if setup.rows <= 3 {
+            Self::Three(Samples::new(setup)?)
+        } else {
+            Self::Six(Samples::new(setup)?)
         })
     }
 
@@ -82,28 +67,75 @@ impl Window {
     ///
     /// C_k,k-p with p = 0..m_b reaches back over 2 m_b + 1 residuals; the next update waits until m_b + 1 are new. A window
     /// that does not observe all states is skipped and counted.
-    pub(super) fn push(&mut self, step: Step) -> Option<Regression> {
-        let rows = Matrix3::from_diagonal(&self.row_scale);
+    ///
+    /// * `entries`: of the jerk density, those to be solved for.
+    pub(super) fn push<const K: usize>(&mut self, step: &Step, entries: &[Entry; K]) -> Option<Regression<K>> {
+        match self {
+            Self::Three(samples) => samples.push(step, entries),
+            Self::Six(samples) => samples.push(step, entries),
+        }
+    }
+
+    /// How many windows were skipped.
+    pub(super) fn skipped(&self) -> i32 {
+        match self {
+            Self::Three(samples) => samples.skipped,
+            Self::Six(samples) => samples.skipped,
+        }
+    }
+}
+
+/// Samples of M rows, and how to look at them.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Samples<const M: usize> {
+    m_b: usize,
+    open_loop: bool,
+    /// Noise variances of the scaled rows.
+    r: SVector<f64, M>,
+    row_scale: SVector<f64, M>,
+    /// Oldest first, their rows scaled.
+    samples: VecDeque<Sampled<M>>,
+    skipped: i32,
+}
+
+impl<const M: usize> Samples<M> {
+    fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        let variances = setup.r.fixed_rows::<M>(0).into_owned();
+        let (r, row_scale) = if setup.tunables.boolean(WHITEN.name)? {
+            // A row that the world lacks has no variance and is zero at any scale.
+            let inverse_sigma = |variance: f64| if variance > 0.0 { 1.0 / variance.sqrt() } else { 1.0 };
+            (SVector::repeat(1.0), variances.map(inverse_sigma))
+        } else {
+            (variances, SVector::repeat(1.0))
+        };
+        Ok(Self {
+            m_b: setup.tunables.integer(M_B.name)? as usize,
+            open_loop: setup.tunables.choice(RESIDUALS.name)? == 1,
+            r,
+            row_scale,
+            samples: VecDeque::new(),
+            skipped: 0,
+        })
+    }
+
+    fn push<const K: usize>(&mut self, step: &Step, entries: &[Entry; K]) -> Option<Regression<K>> {
+        let rows = SMatrix::<f64, M, M>::from_diagonal(&self.row_scale);
         self.samples.push_back(Sampled {
             dt: step.dt,
             f: step.f,
-            h: rows * step.h.fixed_rows::<3>(0),
-            residual: rows * step.innovation.fixed_rows::<3>(0),
+            h: rows * step.h.fixed_rows::<M>(0),
+            residual: rows * step.innovation.fixed_rows::<M>(0),
             correction: step.correction,
         });
         if self.samples.len() < 2 * self.m_b + 1 {
             return None;
         }
-        let found = correlation::regression(self.samples.make_contiguous(), self.m_b, &self.r, self.open_loop);
+        let r = SMatrix::from_diagonal(&self.r);
+        let found = correlation::regression(self.samples.make_contiguous(), self.m_b, &r, self.open_loop, entries);
         self.samples.drain(..self.m_b + 1);
         if found.is_none() {
             self.skipped += 1;
         }
         found
-    }
-
-    /// How many windows were skipped.
-    pub(super) fn skipped(&self) -> i32 {
-        self.skipped
     }
 }
