@@ -1,12 +1,13 @@
 //! The adapter: parameters and inputs as a master sets them on one side, a running [`Navigator`] on the other.
 
 use crate::variables;
+use astro::TargetOrbit;
 use filters::laws::FILTERS;
 use filters::scenarios::SCENARIOS;
 use filters::state::State;
 use filters::{Navigator, Sample, Settings, Status};
 use fmi2_export::{Element, Experiment, Log, Model, ModelError, ModelInfo, Table, VendorAnnotation};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
 
@@ -21,6 +22,12 @@ pub struct Inputs {
     pub lidar_valid: bool,
     /// `lidar.range` (m), `lidar.azimuth` and `lidar.elevation` (rad).
     pub lidar: Vector3<f64>,
+    /// `metrology.valid`.
+    pub metrology_valid: bool,
+    /// `metrology.rho_lvlh` (m), then `metrology.rho_dot_lvlh` (m/s).
+    pub metrology: Vector6<f64>,
+    /// `target_orbit.*`; without a node, which relative motion does not depend on.
+    pub target_orbit: TargetOrbit,
     /// `accelerometer.alpha_c_bc`, m/s2.
     pub alpha_c_bc: Vector3<f64>,
     /// `dcm_bc_n`.
@@ -60,7 +67,7 @@ impl Model for NavModel {
             default_step: 1.0,
             vendor_annotations: vec![VendorAnnotation {
                 tool: "trade-harness",
-                content: vec![presets()],
+                content: vec![presets(), meaning()],
             }],
             ..ModelInfo::default()
         })
@@ -79,6 +86,9 @@ impl Model for NavModel {
                 sample_count: 0,
                 lidar_valid: false,
                 lidar: Vector3::zeros(),
+                metrology_valid: false,
+                metrology: Vector6::zeros(),
+                target_orbit: TargetOrbit::from_vector(&Vector6::zeros()),
                 alpha_c_bc: Vector3::zeros(),
                 dcm_bc_n: Matrix3::identity(),
                 nav_init: State::zeros(),
@@ -111,6 +121,8 @@ impl Model for NavModel {
             count: inputs.sample_count,
             time: inputs.sample_time,
             lidar: inputs.lidar_valid.then_some(inputs.lidar),
+            metrology: inputs.metrology_valid.then_some(inputs.metrology),
+            target_orbit: inputs.target_orbit,
             alpha_c_bc: inputs.alpha_c_bc,
             dcm_bc_n: inputs.dcm_bc_n,
         };
@@ -128,6 +140,24 @@ fn status_name(status: Status) -> &'static str {
         .iter()
         .find(|(s, _)| *s == status)
         .map_or("", |(_, name)| name)
+}
+
+/// The filters that have a meaning in some scenarios only, for `trade-harness`.
+fn meaning() -> Element {
+    let mut all = Element::new("Meaning");
+    for filter in FILTERS {
+        if let Some(only) = &filter.only {
+            let scenarios = SCENARIOS.iter().filter(|s| filter.no_meaning_in(s).is_none());
+            let names: Vec<&str> = scenarios.map(|s| s.name).collect();
+            all = all.child(
+                Element::new("Only")
+                    .attribute("filter", filter.name)
+                    .attribute("scenarios", names.join(","))
+                    .attribute("why", only.why),
+            );
+        }
+    }
+    all
 }
 
 /// The named parameter sets of every filter, for `trade-harness`.

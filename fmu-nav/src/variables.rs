@@ -3,10 +3,11 @@
 //! Names, units and meanings that outside programs rely on are fixed; more may be added, in front of nothing.
 
 use crate::model::NavModel;
+use astro::TargetOrbit;
 use filters::laws::FILTERS;
-use filters::scenarios::SCENARIOS;
+use filters::scenarios::{Measures, SCENARIOS};
 use filters::tunable::{Bound, Kind, Tunable, Value};
-use filters::{Beliefs, Settings, Status};
+use filters::{Beliefs, Navigator, Settings, Status};
 use fmi2_export::{Real, Row, Table, TableBuilder};
 
 type Builder = TableBuilder<NavModel>;
@@ -42,7 +43,7 @@ fn types(t: &mut Builder) {
     let about = [
         "no sample yet",
         "newest sample used",
-        "newest sample had no LiDAR measurement",
+        "newest sample had no measurement of the target",
         "innovations far too large",
     ];
     t.enumeration_type(
@@ -144,7 +145,8 @@ fn belief(t: &mut Builder, name: &str, unit: &str, bound: Bound, about: &str, fi
 
 fn beliefs(t: &mut Builder) {
     use Bound::{Any, NonNegative, Positive};
-    let one = "initial standard deviation of one vehicle's";
+    let one =
+        "initial standard deviation (where the relative state is measured in full, of that; else of one vehicle's)";
     belief(
         t,
         "p0.sigma_position",
@@ -166,7 +168,7 @@ fn beliefs(t: &mut Builder) {
         "p0.sigma_acceleration",
         "m/s2",
         Positive,
-        "initial standard deviation of a_t, per axis",
+        "initial standard deviation of the unmodelled acceleration, per axis",
         |b| &mut b.p0_sigma_acceleration,
     );
     belief(
@@ -239,6 +241,32 @@ fn beliefs(t: &mut Builder) {
     );
     belief(
         t,
+        "r.sigma_position",
+        "m",
+        Positive,
+        "standard deviation of a relative position in LVLH, per axis",
+        |b| &mut b.r_sigma_position,
+    );
+    belief(
+        t,
+        "r.sigma_velocity",
+        "m/s",
+        Positive,
+        "standard deviation of a relative velocity in LVLH, per axis",
+        |b| &mut b.r_sigma_velocity,
+    );
+    belief(
+        t,
+        "reference_orbit.semi_major_axis",
+        "m",
+        Positive,
+        "of the circular orbit that the Clohessy-Wiltshire equations are written about",
+        |b| &mut b.reference_orbit_semi_major_axis,
+    );
+    let off_nominal = "factor on the process noise of the filter, or on its constant gain: for studies of mistuning";
+    belief(t, "off_nominal", "1", Positive, off_nominal, |b| &mut b.off_nominal);
+    belief(
+        t,
         "gravity.mu",
         "m3/s2",
         Positive,
@@ -270,7 +298,7 @@ fn beliefs(t: &mut Builder) {
         "mass ratio of the three-body problem",
         |b| &mut b.gravity_mass_ratio,
     );
-    let diverged = "the filter calls itself diverged when the running mean of NIS / 3 exceeds this";
+    let diverged = "the filter calls itself diverged when the running mean of NIS over its rows exceeds this";
     belief(t, "divergence.nis", "1", Positive, diverged, |b| &mut b.divergence_nis);
     t.integer("divergence.samples")
         .parameter()
@@ -337,6 +365,7 @@ fn tunable_row(t: &mut Builder, filter: &str, tunable: &Tunable, f: usize, i: us
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
+const POSITION_AND_VELOCITY: [&str; 2] = ["m", "m/s"];
 const STATES: [&str; 6] = ["r_tc", "v_tc", "a_t", "r_c", "v_c", "b_c"];
 const STATE_UNITS: [&str; 6] = ["m", "m/s", "m/s2", "m", "m/s", "m/s2"];
 
@@ -379,6 +408,59 @@ fn inputs(t: &mut Builder) {
         .display_unit("deg")
         .about("measured atan(rho_y / rho_z), LiDAR axes")
         .rw(|m| m.inputs.lidar.z, |m, v| m.inputs.lidar.z = v);
+    t.boolean("metrology.valid")
+        .input()
+        .about("whether the sample holds a measured relative state")
+        .rw(|m| m.inputs.metrology_valid, |m, v| m.inputs.metrology_valid = v);
+    for (block, (name, about)) in [
+        (
+            "metrology.rho_lvlh",
+            "measured position of the chaser relative to the target, LVLH",
+        ),
+        (
+            "metrology.rho_dot_lvlh",
+            "measured velocity of the chaser relative to the target, LVLH",
+        ),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        t.real(name)
+            .input()
+            .discrete()
+            .unit(POSITION_AND_VELOCITY[block])
+            .about_by(move |i| format!("{about} {}", AXES[i]))
+            .vector_rw(
+                3,
+                move |m, i| m.inputs.metrology[3 * block + i],
+                move |m, i, v| m.inputs.metrology[3 * block + i] = v,
+            );
+    }
+    type Element = fn(&mut TargetOrbit) -> &mut f64;
+    let orbit: [(&str, &str, &str, Element); 5] = [
+        ("r", "m", "geocentric distance", |o| &mut o.r),
+        ("r_dot", "m/s", "rate of the geocentric distance", |o| &mut o.r_dot),
+        ("h", "m2/s", "angular momentum per unit mass", |o| &mut o.h),
+        ("inclination", "rad", "inclination", |o| &mut o.inclination),
+        ("argument_of_latitude", "rad", "angle from the ascending node", |o| {
+            &mut o.argument_of_latitude
+        }),
+    ];
+    for (name, unit, about, element) in orbit {
+        let mut row = t
+            .real(format!("target_orbit.{name}"))
+            .input()
+            .discrete()
+            .unit(unit)
+            .about(format!("orbit of the target at the sample, as known on board: {about}"));
+        if unit == "rad" {
+            row = row.display_unit("deg");
+        }
+        row.rw(
+            move |m| *element(&mut m.inputs.target_orbit.clone()),
+            move |m, v| *element(&mut m.inputs.target_orbit) = v,
+        );
+    }
     t.real("accelerometer.alpha_c_bc")
         .input()
         .discrete()
@@ -403,6 +485,11 @@ fn inputs(t: &mut Builder) {
         .unit_by(|i| STATE_UNITS[i / 3])
         .about_by(|i| format!("initial estimate of {}, read with the first sample", state_label(i)))
         .vector_rw(18, |m, i| m.inputs.nav_init[i], |m, i, v| m.inputs.nav_init[i] = v);
+}
+
+/// `value` where the filter's world measures this, else 0.
+fn of(navigator: &Navigator, measures: Measures, value: f64) -> f64 {
+    if navigator.measures() == measures { value } else { 0.0 }
 }
 
 fn outputs(t: &mut Builder) {
@@ -442,19 +529,46 @@ fn outputs(t: &mut Builder) {
             .discrete()
             .unit(STATE_UNITS[block])
             .about_by(move |i| format!("{}, {}", about[block], AXES[i]))
-            .vector(3, move |m, i| m.read(|n| n.estimate().x[3 * block + i]));
+            .vector(3, move |m, i| {
+                m.read(|n| of(n, Measures::RangeAndBearing, n.estimate().x[3 * block + i]))
+            });
     }
+    let names = ["est.rho_lvlh", "est.rho_dot_lvlh", "est.d_lvlh"];
+    let about = [
+        "chaser relative to target, position, LVLH of the target",
+        "chaser relative to target, velocity, LVLH of the target",
+        "acceleration that Clohessy-Wiltshire leaves out, LVLH of the target",
+    ];
+    for (block, name) in names.into_iter().enumerate() {
+        t.real(name)
+            .output()
+            .discrete()
+            .unit(STATE_UNITS[block])
+            .about_by(move |i| format!("{}, {}", about[block], AXES[i]))
+            .vector(3, move |m, i| {
+                m.read(|n| of(n, Measures::RelativeState, n.estimate().x[3 * block + i]))
+            });
+    }
+    t.boolean("est.acceleration_valid")
+        .output()
+        .about("whether the filter estimates an unmodelled acceleration, be it as a state with a covariance or not")
+        .get(|m| m.read(Navigator::estimates_acceleration));
     t.real("nis")
         .output()
         .discrete()
         .unit("1")
-        .about("normalised innovation squared of the newest LiDAR measurement, 3 rows")
+        .about("normalised innovation squared of the newest measurement: LiDAR, 3 rows, or relative state, 6; 0 without a covariance")
         .get(|m| m.read(|n| n.innovation().nis));
     t.real("q.s")
         .output()
         .discrete()
         .unit("m/s^2.5")
-        .about_by(|i| format!("square root of the jerk density in use, axis N {}", AXES[i]))
+        .about_by(|i| {
+            format!(
+                "square root of the jerk density in use, axis {} of the estimate",
+                AXES[i]
+            )
+        })
         .vector(3, |m, i| m.read(|n| n.s()[i]));
     t.integer("q.updates")
         .output()
@@ -477,13 +591,18 @@ fn locals(t: &mut Builder) {
     t.real("cov.p")
         .local()
         .discrete()
-        .about("covariance of r_tc, v_tc, a_t, SI")
+        .about("covariance of r_tc, v_tc, a_t (formation: rho, rho_dot, d), SI")
         .matrix(9, 9, |m, i, j| m.read(|n| n.estimate().p_target[(i, j)]));
     t.real("cov.sigma")
         .local()
         .discrete()
         .unit_by(|i| STATE_UNITS[i / 3])
-        .about_by(|i| format!("standard deviation of {}", state_label(i)))
+        .about_by(|i| {
+            format!(
+                "standard deviation of {}; formation: of rho, rho_dot, d",
+                state_label(i)
+            )
+        })
         .vector(18, |m, i| m.read(|n| n.estimate().sigma[i]));
     for (i, (name, unit)) in [
         ("innov.range", "m"),
@@ -502,7 +621,7 @@ fn locals(t: &mut Builder) {
         if unit == "rad" {
             row = row.display_unit("deg");
         }
-        row.get(move |m| m.read(|n| n.innovation().residual[i]));
+        row.get(move |m| m.read(|n| of(n, Measures::RangeAndBearing, n.innovation().residual[i])));
     }
     t.real("innov.s")
         .local()
@@ -514,7 +633,28 @@ fn locals(t: &mut Builder) {
                 ["range", "azimuth", "elevation"][i]
             )
         })
-        .vector(3, |m, i| m.read(|n| n.innovation().variance[i]));
+        .vector(3, |m, i| {
+            m.read(|n| of(n, Measures::RangeAndBearing, n.innovation().variance[i]))
+        });
+    for (block, quantity) in ["rho", "rho_dot"].into_iter().enumerate() {
+        let unit = POSITION_AND_VELOCITY[block];
+        t.real(format!("innov.{quantity}"))
+            .local()
+            .discrete()
+            .unit(unit)
+            .about_by(|i| format!("measured minus predicted, LVLH {}", AXES[i]))
+            .vector(3, move |m, i| {
+                m.read(|n| of(n, Measures::RelativeState, n.innovation().residual[3 * block + i]))
+            });
+        t.real(format!("innov.{quantity}_s"))
+            .local()
+            .discrete()
+            .unit(["m2", "m2/s2"][block])
+            .about_by(|i| format!("predicted variance of the innovation, LVLH {}", AXES[i]))
+            .vector(3, move |m, i| {
+                m.read(|n| of(n, Measures::RelativeState, n.innovation().variance[3 * block + i]))
+            });
+    }
     t.integer("q.skipped")
         .local()
         .about("updates passed by because the adaptation window was singular")

@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 /// Tuning that all laws share. A value of [`Beliefs::OWN`] means "the scenario's own".
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Beliefs {
-    /// Initial standard deviation of one vehicle's position, m.
+    /// Initial standard deviation of one vehicle's position, or of the relative one where that is measured in full, m.
     pub p0_sigma_position: f64,
-    /// Initial standard deviation of one vehicle's velocity, m/s.
+    /// Initial standard deviation of one vehicle's velocity, or of the relative one likewise, m/s.
     pub p0_sigma_velocity: f64,
     /// Initial standard deviation of the target's unmodelled acceleration, m/s2.
     pub p0_sigma_acceleration: f64,
@@ -29,6 +29,14 @@ pub struct Beliefs {
     pub r_sigma_angle: f64,
     /// Standard deviation of an accelerometer sample, m/s2.
     pub r_sigma_accelerometer: f64,
+    /// Standard deviation of a relative position in LVLH, m.
+    pub r_sigma_position: f64,
+    /// Standard deviation of a relative velocity in LVLH, m/s.
+    pub r_sigma_velocity: f64,
+    /// Semi-major axis of the circular orbit that Clohessy-Wiltshire is written about, m.
+    pub reference_orbit_semi_major_axis: f64,
+    /// Factor on the process noise of every law, or on an observer's gain: 1 unless mistuning is studied.
+    pub off_nominal: f64,
     /// Zonal gravity: gravitational parameter, m3/s2.
     pub gravity_mu: f64,
     /// Zonal gravity: reference radius, m.
@@ -37,7 +45,7 @@ pub struct Beliefs {
     pub gravity_j: [f64; 3],
     /// Three-body gravity: mass ratio.
     pub gravity_mass_ratio: f64,
-    /// Mean normalised LiDAR NIS above which the filter calls itself diverged.
+    /// Mean normalised NIS above which the filter calls itself diverged.
     pub divergence_nis: f64,
     /// Number of samples over which that mean is taken.
     pub divergence_samples: i32,
@@ -65,6 +73,10 @@ impl Default for Beliefs {
             r_sigma_range: 0.08,
             r_sigma_angle: 0.04_f64.to_radians(),
             r_sigma_accelerometer: 3.433e-6,
+            r_sigma_position: 1e-2,
+            r_sigma_velocity: 1e-4,
+            reference_orbit_semi_major_axis: 8.1431e6,
+            off_nominal: 1.0,
             gravity_mu: astro::earth::FILTER.mu,
             gravity_radius: astro::earth::FILTER.r_ref,
             gravity_j: [j2, j3, j4],

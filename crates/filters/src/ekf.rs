@@ -3,18 +3,20 @@
 //! Pure functions of state and covariance; which samples arrive and what a law makes of them is [`crate::Navigator`]'s.
 
 use crate::gravity::Gravity;
+use crate::laws::network::Disturbance;
 use crate::state::{LidarRows, N, State, StateMatrix, TargetMatrix, idx};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use numerics::{expm, rk4, spd};
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
-/// Mean and covariance, internal units.
+/// Mean and covariance of D states, internal units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Gaussian {
-    /// The 18 states.
-    pub x: State,
-    /// Their covariance, 18x18.
-    pub p: StateMatrix,
+pub struct Gaussian<const D: usize = N> {
+    /// The states, D.
+    pub x: SVector<f64, D>,
+    /// Their covariance, D x D.
+    pub p: SMatrix<f64, D, D>,
 }
 
 /// The force model of the filter, internal units.
@@ -137,16 +139,21 @@ impl Dynamics {
 
     /// Time update, Eq. (3): mean by Runge-Kutta, covariance F P F^T + Q.
     ///
+    /// * `learnt`: what a law adds to the target's acceleration over the step.
     /// * returns: the transition matrix used, 18x18.
     pub fn predict(
         &self,
         est: &mut Gaussian,
         dt: f64,
         thrust: Option<&Thrust>,
+        learnt: Option<&Disturbance>,
         q_target: &TargetMatrix,
     ) -> StateMatrix {
-        let f = self.transition(&est.x, dt, thrust);
+        let mut f = self.transition(&est.x, dt, thrust);
         est.x = self.propagate_mean(&est.x, dt, thrust);
+        if let Some(learnt) = learnt {
+            learnt.act(&mut est.x, &mut f, dt);
+        }
         est.p = spd::symmetrised(&carried(&f, &est.p)) + self.process_noise(q_target, dt);
         f
     }
@@ -172,9 +179,9 @@ fn carried(f: &StateMatrix, p: &StateMatrix) -> StateMatrix {
 
 /// Measurement rows: H, the innovation and the noise variances of M measurements.
 #[derive(Clone, Debug)]
-pub struct Measurement<const M: usize> {
-    /// Partials, M x 18.
-    pub h: SMatrix<f64, M, N>,
+pub struct Measurement<const M: usize, const D: usize = N> {
+    /// Partials by the D states, M x D.
+    pub h: SMatrix<f64, M, D>,
     /// Measured minus predicted, M.
     pub innovation: SVector<f64, M>,
     /// Diagonal of R, M.
@@ -191,24 +198,29 @@ pub struct NotSpd {
 /// Measurement update, Eqs. (6) and (12): gain with the rows of the consider states zeroed, covariance in Joseph form,
 /// which stays valid for that gain.
 ///
+/// * `consider`: slots of the consider states.
 /// * returns: the innovation covariance S, M x M.
 ///
 /// # Errors
 /// [`NotSpd`] when S cannot be factored; `est` is then unchanged.
-pub fn update<const M: usize>(est: &mut Gaussian, m: &Measurement<M>) -> Result<SMatrix<f64, M, M>, NotSpd> {
+pub fn update<const M: usize, const D: usize>(
+    est: &mut Gaussian<D>,
+    m: &Measurement<M, D>,
+    consider: Range<usize>,
+) -> Result<SMatrix<f64, M, M>, NotSpd> {
     let hp = m.h * est.p;
     let s = spd::symmetrised(&(hp * m.h.transpose())) + SMatrix::<f64, M, M>::from_diagonal(&m.r);
     let l = spd::cholesky(&s).ok_or(NotSpd {
         min_diagonal: s.diagonal().min(),
     })?;
-    let mut k = SMatrix::<f64, N, M>::zeros();
-    for row in (0..N).filter(|row| !idx::CONSIDER.contains(row)) {
+    let mut k = SMatrix::<f64, D, M>::zeros();
+    for row in (0..D).filter(|row| !consider.contains(row)) {
         k.set_row(row, &spd::cholesky_solve(&l, &hp.column(row).into_owned()).transpose());
     }
     est.x += k * m.innovation;
     // (I - K H) P (I - K H)^T + K R K^T as L - (L H^T - K R) K^T with L = (I - K H) P: no full 18^3 product.
     let left = est.p - k * hp;
-    let k_r = SMatrix::<f64, N, M>::from_fn(|i, j| k[(i, j)] * m.r[j]);
+    let k_r = SMatrix::<f64, D, M>::from_fn(|i, j| k[(i, j)] * m.r[j]);
     est.p = spd::symmetrised(&(left - (left * m.h.transpose() - k_r) * k.transpose()));
     Ok(s)
 }
@@ -361,7 +373,7 @@ mod tests {
             innovation: SVector::<f64, 6>::from_fn(|_, _| normal(g)),
             r: SVector::<f64, 6>::from_fn(|i, _| 0.5 + i as f64),
         };
-        let s = update(&mut est, &m).unwrap();
+        let s = update(&mut est, &m, idx::CONSIDER).unwrap();
         let r = SMatrix::<f64, 6, 6>::from_diagonal(&m.r);
         let expected_s = m.h * before.p * m.h.transpose() + r;
         assert!((s - expected_s).amax() < 1e-10);
@@ -393,7 +405,10 @@ mod tests {
             innovation: Vector3::zeros(),
             r: Vector3::repeat(0.5),
         };
-        assert_eq!(update(&mut est, &m).unwrap_err(), NotSpd { min_diagonal: -0.5 });
+        assert_eq!(
+            update(&mut est, &m, idx::CONSIDER).unwrap_err(),
+            NotSpd { min_diagonal: -0.5 }
+        );
         assert_eq!(est, before);
     }
 

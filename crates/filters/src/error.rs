@@ -19,6 +19,34 @@ pub enum FilterError {
         /// Registered names.
         known: String,
     },
+    /// A filter in a world where it has no meaning.
+    #[error("filter {filter} has no meaning in scenario {scenario}: {why}")]
+    NoMeaning {
+        /// Filter.
+        filter: &'static str,
+        /// Scenario.
+        scenario: &'static str,
+        /// Reason.
+        why: &'static str,
+    },
+    /// A scenario whose relative state is measured in full, but whose gravity is not that of the Earth.
+    #[error("scenario {scenario}: relative motion in LVLH needs zonal gravity")]
+    NoRelativeModel {
+        /// Scenario.
+        scenario: &'static str,
+    },
+    /// The target's orbit, which the filter's dynamics need, is missing.
+    #[error(
+        "at t = {t_s} s target_orbit.r = {r} m and target_orbit.h = {h} m2/s: connect target_orbit.*, both must be positive"
+    )]
+    NoTargetOrbit {
+        /// Epoch of the sample, s.
+        t_s: f64,
+        /// Distance as given, m.
+        r: f64,
+        /// Angular momentum as given, m2/s.
+        h: f64,
+    },
     /// A value outside its range.
     #[error("{name} = {value}{}{unit}: must be {permitted}", if unit.is_empty() { "" } else { " " })]
     OutOfRange {

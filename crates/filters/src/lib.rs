@@ -14,6 +14,7 @@ mod gravity;
 pub mod jerk;
 pub mod laws;
 mod navigator;
+mod plants;
 mod sample;
 pub mod scenarios;
 pub mod state;

@@ -1,16 +1,15 @@
 //! A running filter: takes samples, bridges gaps, and holds the estimate.
 
 use crate::beliefs::Beliefs;
-use crate::ekf::{self, Dynamics, Measurement, Thrust};
 use crate::error::FilterError;
-use crate::laws::{AccelerationModel, Adaptation, FILTERS, FilterEntry, Law, Setup, Step};
+use crate::laws::{AccelerationModel, Adaptation, FILTERS, FilterEntry, Law, RelativeModel, Setup, Step};
+use crate::plants::{Plant, Reported};
 use crate::sample::Sample;
-use crate::scenarios::{SCENARIOS, ScenarioEntry};
-use crate::state::{LidarRows, N, N_TARGET, State, TargetMatrix, idx};
+use crate::scenarios::{Measures, SCENARIOS, ScenarioEntry};
+use crate::state::{N_TARGET, State, TargetMatrix};
 use crate::tunable::{Bound, Tunables, Value};
 use crate::units::Units;
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3, Vector6};
-use numerics::spd;
+use nalgebra::{Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 /// Longest step of one propagation, s; a gap between samples is crossed in equal parts no longer than this.
@@ -93,7 +92,7 @@ pub enum Status {
     Initialising,
     /// The newest sample was measured and used.
     Tracking,
-    /// The newest sample had no LiDAR measurement.
+    /// The newest sample had no measurement of the target.
     Coasting,
     /// Innovations are far larger than the filter expects.
     Diverged,
@@ -116,22 +115,22 @@ pub struct Estimate {
     pub time: f64,
     /// Its ordinal; 0 before the first.
     pub count: i32,
-    /// The 18 states.
+    /// The 18 states; in a world that measures the relative state in full: rho, rho_dot and d (LVLH), then nothing.
     pub x: State,
-    /// Covariance of the target's nine states.
+    /// Covariance of the first nine.
     pub p_target: TargetMatrix,
     /// Standard deviations of the 18 states.
     pub sigma: State,
 }
 
-/// The newest LiDAR innovation, SI.
+/// The newest innovation, SI: range (m), azimuth and elevation (rad), or relative position (m) and velocity (m/s) in LVLH.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Innovation {
-    /// Range (m), azimuth and elevation (rad).
-    pub residual: Vector3<f64>,
-    /// Their predicted variances.
-    pub variance: Vector3<f64>,
-    /// Normalised innovation squared of the three rows.
+    /// Measured minus predicted; zero beyond the rows of the world's measurement.
+    pub residual: Vector6<f64>,
+    /// Their predicted variances; zero without a covariance.
+    pub variance: Vector6<f64>,
+    /// Normalised innovation squared of all rows; zero without a covariance.
     pub nis: f64,
 }
 
@@ -139,17 +138,10 @@ pub struct Innovation {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Navigator {
     units: Units,
-    dynamics: Dynamics,
+    measures: Measures,
+    plant: Plant,
     law: Law,
-    r_lidar: Vector3<f64>,
-    r_accelerometer: f64,
-    gate: f64,
-    initial_p: ekf::InitialSigma,
     divergence: Divergence,
-    /// Mean and covariance, internal units; `None` until the first sample.
-    core: Option<ekf::Gaussian>,
-    /// The reading held over the step that follows; `None` when below the gate or before the first sample.
-    thrust: Option<Thrust>,
     estimate: Estimate,
     innovation: Innovation,
     status: Status,
@@ -163,37 +155,22 @@ struct Divergence {
     mean: f64,
 }
 
-/// The LiDAR's three rows among the most that a law can be given.
-fn pad(rows: &Vector3<f64>) -> Vector6<f64> {
-    rows.fixed_resize(0.0)
-}
-
 impl Navigator {
     /// A filter that waits for its first sample.
     ///
     /// * `start_time`: epoch at which the initial estimate will hold, s.
     ///
     /// # Errors
-    /// When the scenario or filter is unknown or a parameter is out of range.
+    /// When the scenario or filter is unknown, the one has no meaning in the other, or a parameter is out of range.
     pub fn new(settings: &Settings, start_time: f64) -> Result<Self, FilterError> {
         let (scenario, filter, b) = (settings.scenario()?, settings.filter()?, &settings.beliefs);
-        let units = scenario.units;
-        let own = |name: &str, value: f64| scenario.resolve(name, value);
-        let sigma = |name: &str, value: f64, unit: &'static str| Bound::Positive.check(name, own(name, value)?, unit);
-        let r_lidar = sensors::lidar::covariance(
-            Bound::Positive.check("r.sigma_range", b.r_sigma_range, "m")? / units.length,
-            Bound::Positive.check("r.sigma_angle", b.r_sigma_angle, "rad")?,
-        );
-        let r_acc =
-            Bound::Positive.check("r.sigma_accelerometer", b.r_sigma_accelerometer, "m/s2")? / units.acceleration();
-        let bias_walk = Bound::NonNegative.check("accelerometer.bias_sigma", b.accelerometer_bias_sigma, "m/s2")?;
-        let q_c = Bound::NonNegative.check("chaser.q_c", own("chaser.q_c", b.chaser_q_c)?, "m2/s3")?;
-        let initial_p = ekf::InitialSigma {
-            position: sigma("p0.sigma_position", b.p0_sigma_position, "m")? / units.length,
-            velocity: sigma("p0.sigma_velocity", b.p0_sigma_velocity, "m/s")? / units.velocity(),
-            acceleration: sigma("p0.sigma_acceleration", b.p0_sigma_acceleration, "m/s2")? / units.acceleration(),
-            bias: sigma("p0.sigma_bias", b.p0_sigma_bias, "m/s2")? / units.acceleration(),
-        };
+        if let Some(why) = filter.no_meaning_in(scenario) {
+            return Err(FilterError::NoMeaning {
+                filter: filter.name,
+                scenario: scenario.name,
+                why,
+            });
+        }
         let law = (filter.build)(&Setup {
             tunables: Tunables {
                 law: filter.name,
@@ -203,38 +180,23 @@ impl Navigator {
                 defaults: scenario.defaults,
             },
             rows: scenario.measures.rows(),
-            r: pad(&r_lidar.diagonal()),
-            units,
+            r: Plant::noise(scenario, b)?,
+            measures: scenario.measures,
+            units: scenario.units,
+            off_nominal: Bound::Positive.check("off_nominal", b.off_nominal, "")?,
             study_seed: settings.study_seed,
             run: settings.run,
         })?;
-        let dynamics = Dynamics {
-            gravity: (scenario.gravity)(b)?,
-            acceleration_decay: match law.acceleration() {
-                AccelerationModel::GaussMarkov(rate) => rate,
-                AccelerationModel::RandomWalk | AccelerationModel::Absent => 0.0,
-            },
-            beta: Bound::NonNegative.check("accelerometer.beta", b.accelerometer_beta, "1/s")? * units.time,
-            q_c: q_c / (units.velocity().powi(2) / units.time),
-            q_coupled: b.chaser_q_coupled,
-            // A standard deviation per 1 s step, as a variance rate.
-            q_bias: (bias_walk / units.acceleration()).powi(2) * units.time,
-        };
         Ok(Self {
-            units,
-            dynamics,
+            units: scenario.units,
+            measures: scenario.measures,
+            plant: Plant::new(scenario, b, &law)?,
             law,
-            r_lidar: r_lidar.diagonal(),
-            r_accelerometer: r_acc * r_acc,
-            gate: Bound::NonNegative.check("accelerometer.gate", b.accelerometer_gate, "m/s2")? / units.acceleration(),
-            initial_p,
             divergence: Divergence {
                 limit: Bound::Positive.check("divergence.nis", b.divergence_nis, "")?,
                 samples: Bound::Positive.check("divergence.samples", f64::from(b.divergence_samples), "")?,
                 mean: 1.0,
             },
-            core: None,
-            thrust: None,
             estimate: Estimate {
                 time: start_time,
                 count: 0,
@@ -274,176 +236,58 @@ impl Navigator {
                 limit_s: LONGEST_GAP,
             });
         }
-        let defect = (sample.dcm_bc_n * sample.dcm_bc_n.transpose() - Matrix3::identity()).amax();
-        if defect.is_nan() || defect > 1e-6 {
-            return Err(FilterError::NotARotation { t_s, defect });
+        let plant = self.plant.get_mut();
+        plant.check(sample, &self.law)?;
+        if !plant.started() {
+            if nav_init.iter().all(|v| *v == 0.0) {
+                return Err(FilterError::NoInitialEstimate { t_s });
+            }
+            plant.start(nav_init, &self.law);
+            self.law.look_ahead(&plant.relative());
         }
-        let mut core = match self.core.take() {
-            Some(core) => core,
-            None if nav_init.iter().all(|v| *v == 0.0) => return Err(FilterError::NoInitialEstimate { t_s }),
-            None => self.start(nav_init),
-        };
 
-        let f = self.propagate(&mut core, gap_s);
-        let alpha = sample.alpha_c_bc / self.units.acceleration();
-        let drives = alpha.norm() >= self.gate;
-        let prior = core.x;
-        let (h, innovation) = self.update(&mut core, sample, &alpha, drives)?;
-        if !(core.x.iter().all(|v| v.is_finite()) && core.p.iter().all(|v| v.is_finite())) {
-            return Err(FilterError::NotFinite { t_s });
-        }
-        // Zero is legal: a law without an acceleration state has no variance there.
-        if let Some(state) = (0..N).find(|i| core.p[(*i, *i)] < 0.0) {
-            return Err(FilterError::NegativeVariance { t_s, state: state + 1 });
+        let dt = gap_s / self.units.time;
+        let parts = (gap_s / LONGEST_STEP - 1e-9).ceil().max(1.0) as u32;
+        let f = plant.propagate(gap_s, parts, sample, &self.law);
+        let updated = plant.update(sample, dt, &self.law)?;
+        if let Some(defect) = plant.defect(t_s) {
+            return Err(defect);
         }
         self.law.observe(Step {
-            dt: gap_s / self.units.time,
+            dt,
             f,
-            h: h.fixed_resize(0.0),
-            innovation: pad(&innovation),
-            correction: (core.x - prior).fixed_rows::<9>(0).into_owned(),
+            h: updated.h,
+            innovation: updated.innovation,
+            correction: updated.correction,
         })?;
-        self.thrust = drives.then(|| Thrust {
-            alpha_c_bc: alpha,
-            dcm_n_bc: sample.dcm_bc_n.transpose(),
-        });
-        self.report(&core, sample);
-        self.core = Some(core);
+        self.law.look_ahead(&plant.relative());
+        let Reported { x, p_target, sigma } = plant.report(sample, &self.law);
+        self.estimate = Estimate {
+            time: sample.time,
+            count: sample.count,
+            x,
+            p_target,
+            sigma,
+        };
+        self.judge(updated.seen);
         Ok(())
     }
 
-    /// The initial estimate as the first sample finds it.
-    fn start(&self, nav_init: &State) -> ekf::Gaussian {
-        let mut core = ekf::Gaussian {
-            x: State::from_fn(|i, _| nav_init[i] / self.units.of_state(i)),
-            p: self.initial_p.covariance(),
-        };
-        if self.law.acceleration() == AccelerationModel::Absent {
-            core.x.fixed_rows_mut::<3>(idx::A_T.start).fill(0.0);
-            idx::A_T.for_each(|i| core.p[(i, i)] = 0.0);
-        }
-        core
-    }
-
-    /// Time update over a gap, in equal parts.
-    ///
-    /// * returns: transition of the target's nine states over the whole gap.
-    fn propagate(&self, core: &mut ekf::Gaussian, gap_s: f64) -> TargetMatrix {
-        let parts = (gap_s / LONGEST_STEP - 1e-9).ceil().max(1.0);
-        let dt = gap_s / parts / self.units.time;
-        let mut total = TargetMatrix::identity();
-        for _ in 0..parts as u32 {
-            let f = self
-                .dynamics
-                .predict(core, dt, self.thrust.as_ref(), &self.law.process_noise(dt));
-            total = f.fixed_view::<9, 9>(0, 0) * total;
-        }
-        total
-    }
-
-    /// Measurement update with the rows that this sample offers.
-    ///
-    /// * returns: LiDAR rows of H and the LiDAR innovation, both zero on a dropout.
-    fn update(
-        &mut self,
-        core: &mut ekf::Gaussian,
-        sample: &Sample,
-        alpha: &Vector3<f64>,
-        drives: bool,
-    ) -> Result<(LidarRows, Vector3<f64>), FilterError> {
-        let t_s = sample.time;
-        let not_spd = |e: ekf::NotSpd| FilterError::InnovationNotSpd {
-            t_s,
-            min_diagonal: e.min_diagonal,
-        };
-        let bias_innovation = alpha - core.x.fixed_rows::<3>(idx::B_C.start);
-        let bias_rows = |first: usize, h: &mut [f64], rows: usize| {
-            // Column-major: an identity under b_c (Eq. 11 prints extra zeros).
-            (0..3).for_each(|i| h[(idx::B_C.start + i) * rows + first + i] = 1.0);
-        };
-        let Some(measured) = sample.lidar else {
-            if !drives {
-                let mut h = SMatrix::<f64, 3, N>::zeros();
-                bias_rows(0, h.as_mut_slice(), 3);
-                let r = Vector3::repeat(self.r_accelerometer);
-                ekf::update(
-                    core,
-                    &Measurement {
-                        h,
-                        innovation: bias_innovation,
-                        r,
-                    },
-                )
-                .map_err(not_spd)?;
-            }
+    /// Keeps the innovation and says what the filter is doing.
+    fn judge(&mut self, seen: Option<Innovation>) {
+        let Some(seen) = seen else {
             self.status = Status::Coasting;
-            return Ok((LidarRows::zeros(), Vector3::zeros()));
+            return;
         };
-
-        let r_tc = core.x.fixed_rows::<3>(0).into_owned();
-        let (predicted, rows) = ekf::lidar_rows(&r_tc, &(astro::frames::lidar_from_body() * sample.dcm_bc_n));
-        if !rows.iter().all(|v| v.is_finite()) {
-            return Err(FilterError::LineOfSightUndefined {
-                t_s,
-                range_m: r_tc.norm() * self.units.length,
-            });
+        self.innovation = seen;
+        if self.dimension() > 0 {
+            let normalised = seen.nis / self.measures.rows() as f64;
+            self.divergence.mean += (normalised - self.divergence.mean) / self.divergence.samples;
         }
-        let innovation = Vector3::new(measured.x / self.units.length, measured.y, measured.z) - predicted;
-        let s: Matrix3<f64> = if drives {
-            let mut h = SMatrix::<f64, 3, N>::zeros();
-            h.fixed_view_mut::<3, 9>(0, 0).copy_from(&rows);
-            ekf::update(
-                core,
-                &Measurement {
-                    h,
-                    innovation,
-                    r: self.r_lidar,
-                },
-            )
-            .map_err(not_spd)?
-        } else {
-            let mut h = SMatrix::<f64, 6, N>::zeros();
-            h.fixed_view_mut::<3, 9>(0, 0).copy_from(&rows);
-            bias_rows(3, h.as_mut_slice(), 6);
-            let stack = |a: &Vector3<f64>, b: &Vector3<f64>| Vector6::new(a.x, a.y, a.z, b.x, b.y, b.z);
-            let m = Measurement {
-                h,
-                innovation: stack(&innovation, &bias_innovation),
-                r: stack(&self.r_lidar, &Vector3::repeat(self.r_accelerometer)),
-            };
-            ekf::update(core, &m)
-                .map_err(not_spd)?
-                .fixed_view::<3, 3>(0, 0)
-                .into_owned()
-        };
-        let l = spd::cholesky(&s).ok_or(FilterError::InnovationNotSpd {
-            t_s,
-            min_diagonal: s.diagonal().min(),
-        })?;
-        let nis = spd::forward_substitution(&l, &innovation).norm_squared();
-        let si = Vector3::new(self.units.length, 1.0, 1.0);
-        self.innovation = Innovation {
-            residual: innovation.component_mul(&si),
-            variance: s.diagonal().component_mul(&si).component_mul(&si),
-            nis,
-        };
-        self.divergence.mean += (nis / 3.0 - self.divergence.mean) / self.divergence.samples;
         self.status = if self.divergence.mean > self.divergence.limit {
             Status::Diverged
         } else {
             Status::Tracking
-        };
-        Ok((rows, innovation))
-    }
-
-    fn report(&mut self, core: &ekf::Gaussian, sample: &Sample) {
-        let unit = SVector::<f64, N>::from_fn(|i, _| self.units.of_state(i));
-        self.estimate = Estimate {
-            time: sample.time,
-            count: sample.count,
-            x: core.x.component_mul(&unit),
-            p_target: TargetMatrix::from_fn(|i, j| core.p[(i, j)] * unit[i] * unit[j]),
-            sigma: State::from_fn(|i, _| core.p[(i, i)].sqrt() * unit[i]),
         };
     }
 
@@ -452,7 +296,7 @@ impl Navigator {
         &self.estimate
     }
 
-    /// The newest LiDAR innovation.
+    /// The newest innovation.
     pub fn innovation(&self) -> &Innovation {
         &self.innovation
     }
@@ -462,13 +306,26 @@ impl Navigator {
         self.status
     }
 
-    /// Number of the target's states that have a covariance: nine, or six without an acceleration state.
+    /// What the world measures of the target, and so which frame the first nine states are in.
+    pub fn measures(&self) -> Measures {
+        self.measures
+    }
+
+    /// Number of the first nine states that have a covariance: nine, six without an acceleration state, none under a
+    /// constant gain.
     pub fn dimension(&self) -> usize {
-        if self.law.acceleration() == AccelerationModel::Absent {
-            6
-        } else {
-            N_TARGET
+        match self.law.acceleration() {
+            _ if self.law.gain(1.0).is_some() => 0,
+            AccelerationModel::Absent => 6,
+            AccelerationModel::RandomWalk | AccelerationModel::GaussMarkov(_) => N_TARGET,
         }
+    }
+
+    /// Whether the unmodelled acceleration is estimated, as a state, by a network or by a better model.
+    pub fn estimates_acceleration(&self) -> bool {
+        self.law.acceleration() != AccelerationModel::Absent
+            || self.law.disturbance().is_some()
+            || self.law.relative_model() != RelativeModel::ClohessyWiltshire
     }
 
     /// Square root of the jerk density in use, axes N, m/s^2.5; zero for a law without one.

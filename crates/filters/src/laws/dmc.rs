@@ -42,7 +42,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
 };
 
 fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
-    let sigma = setup.tunables.real("sigma")? / setup.units.acceleration();
+    let sigma = setup.tunables.real("sigma")? / setup.units.acceleration() * setup.off_nominal.sqrt();
     let beta = setup.units.time / setup.tunables.real("time_constant")?;
     Ok(Dmc {
         s: sigma * (2.0 * beta).sqrt(),

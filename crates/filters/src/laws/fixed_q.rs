@@ -39,7 +39,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
 
 fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
     Ok(FixedQ {
-        s: setup.tunables.real("s")? / setup.units.root_jerk_density(),
+        s: setup.tunables.real("s")? / setup.units.root_jerk_density() * setup.off_nominal.sqrt(),
     }
     .into())
 }

@@ -197,6 +197,7 @@ mod tests {
     use super::*;
     use crate::laws::Law;
     use crate::laws::correlation::{self, Sampled};
+    use crate::scenarios::Measures;
     use crate::state::{Rows, Target};
     use crate::tunable::{Tunables, Value};
     use crate::units::Units;
@@ -252,7 +253,9 @@ mod tests {
             },
             rows: r.len(),
             r: Vector6::from_fn(|row, _| r.get(row).copied().unwrap_or(0.0)),
+            measures: Measures::RangeAndBearing,
             units: Units::SI,
+            off_nominal: 1.0,
             study_seed: 1,
             run,
         });

@@ -7,13 +7,21 @@
 mod constrained_q;
 pub mod correlation;
 mod dmc;
+mod ekf_j2;
 mod fixed_q;
+mod learner;
 mod milton;
+pub mod network;
+mod observer;
+mod rbfnn_aekf;
+mod rbfnn_ekf;
 mod snc;
+mod step_noise;
 mod window;
 
+use self::network::Disturbance;
 use crate::FilterError;
-use crate::scenarios::Measures;
+use crate::scenarios::{Measures, ScenarioEntry};
 use crate::state::{Rows, Target, TargetMatrix};
 use crate::tunable::{Preset, Tunable, Tunables};
 use crate::units::Units;
@@ -46,6 +54,25 @@ pub enum AccelerationModel {
     Absent,
 }
 
+impl AccelerationModel {
+    /// Rate at which the state decays by itself, internal units.
+    pub fn decay(self) -> f64 {
+        match self {
+            Self::GaussMarkov(rate) => rate,
+            Self::RandomWalk | Self::Absent => 0.0,
+        }
+    }
+}
+
+/// Dynamics of the relative state in the target's LVLH frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RelativeModel {
+    /// Linear, about a circular orbit: Clohessy and Wiltshire.
+    ClohessyWiltshire,
+    /// Nonlinear, with J2, about the target's orbit as it is handed over with each sample.
+    J2,
+}
+
 /// A law plugged into the filter.
 pub trait Adaptation {
     /// How the acceleration state behaves.
@@ -55,6 +82,27 @@ pub trait Adaptation {
 
     /// Discrete process noise of the target's nine states over `dt`, 9x9, internal units.
     fn process_noise(&self, dt: f64) -> TargetMatrix;
+
+    /// Dynamics of the relative state, where it is measured in full.
+    fn relative_model(&self) -> RelativeModel {
+        RelativeModel::ClohessyWiltshire
+    }
+
+    /// Diagonal of a gain over `dt` that takes the place of the Kalman gain on position and velocity, where they are
+    /// measured in full; the filter then has no covariance.
+    fn gain(&self, _dt: f64) -> Option<Vector6<f64>> {
+        None
+    }
+
+    /// Takes note of the newest estimate: the initial one, then that after each sample.
+    ///
+    /// * `x`: relative position and velocity, internal units.
+    fn look_ahead(&mut self, _x: &Vector6<f64>) {}
+
+    /// Acceleration that acts on the relative state until the next sample, with its partials; internal units.
+    fn disturbance(&self) -> Option<&Disturbance> {
+        None
+    }
 
     /// Learns from a processed sample.
     ///
@@ -89,8 +137,12 @@ pub struct Setup<'a> {
     pub rows: usize,
     /// Their noise variances, the diagonal of R, internal units; zero beyond [`Setup::rows`].
     pub r: Vector6<f64>,
+    /// What kind of measurement that is.
+    pub measures: Measures,
     /// Internal units.
     pub units: Units,
+    /// Factor on the process noise that the tunables say, or on an observer's gain, to study mistuning.
+    pub off_nominal: f64,
     /// Seed of the study.
     pub study_seed: u64,
     /// Run within the study.
@@ -135,6 +187,14 @@ pub struct FilterEntry {
     pub build: fn(&Setup<'_>) -> Result<Law, FilterError>,
 }
 
+impl FilterEntry {
+    /// Why the filter has no meaning in a scenario; `None` where it has one.
+    pub fn no_meaning_in(&self, scenario: &ScenarioEntry) -> Option<&'static str> {
+        let only = self.only.as_ref()?;
+        (only.measures != scenario.measures).then_some(only.why)
+    }
+}
+
 /// Makes the registry: the list of entries and the closed set of laws that a saved FMU state can hold.
 macro_rules! registry {
     ($($variant:ident => $law:ty, $entry:expr;)*) => {
@@ -169,6 +229,10 @@ registry! {
     Dmc => dmc::Dmc, dmc::ENTRY;
     Milton => milton::Milton, milton::ENTRY;
     ConstrainedQ => constrained_q::ConstrainedQ, constrained_q::ENTRY;
+    RbfnnAekf => rbfnn_aekf::RbfnnAekf, rbfnn_aekf::ENTRY;
+    RbfnnEkf => rbfnn_ekf::RbfnnEkf, rbfnn_ekf::ENTRY;
+    Observer => observer::Observer, observer::ENTRY;
+    EkfJ2 => ekf_j2::EkfJ2, ekf_j2::ENTRY;
 }
 
 impl Adaptation for Law {
@@ -177,6 +241,18 @@ impl Adaptation for Law {
     }
     fn process_noise(&self, dt: f64) -> TargetMatrix {
         self.inner().process_noise(dt)
+    }
+    fn relative_model(&self) -> RelativeModel {
+        self.inner().relative_model()
+    }
+    fn gain(&self, dt: f64) -> Option<Vector6<f64>> {
+        self.inner().gain(dt)
+    }
+    fn look_ahead(&mut self, x: &Vector6<f64>) {
+        self.inner_mut().look_ahead(x);
+    }
+    fn disturbance(&self) -> Option<&Disturbance> {
+        self.inner().disturbance()
     }
     fn observe(&mut self, step: Step) -> Result<(), FilterError> {
         self.inner_mut().observe(step)

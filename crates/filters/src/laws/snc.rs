@@ -33,7 +33,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
 fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
     let unit = setup.units.velocity() / setup.units.time.sqrt();
     Ok(Snc {
-        q: setup.tunables.real("q")? / unit,
+        q: setup.tunables.real("q")? / unit * setup.off_nominal.sqrt(),
     }
     .into())
 }

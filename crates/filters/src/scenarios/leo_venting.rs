@@ -11,7 +11,7 @@ pub(super) const ENTRY: ScenarioEntry = ScenarioEntry {
     duration: 5680.0,
     measures: Measures::RangeAndBearing,
     units: Units::SI,
-    gravity,
+    gravity: zonal_gravity,
     defaults: &[
         // Eq. (35); its third block is a_t for the target and b_c for the chaser.
         ("p0.sigma_position", 25.0 / 3.0),
@@ -28,10 +28,25 @@ pub(super) const ENTRY: ScenarioEntry = ScenarioEntry {
         ("milton.q_w", 1e-5),
         ("milton.r_w", 1.0),
         ("milton.s0", 1e-6),
+        // The network sees kilometres and metres per second and forgets within a minute: what it learns from the corrections of
+        // the first estimate, hundredths of m/s2, must not stay. Q is that of snc.
+        ("rbfnn_aekf.learning_rate", 0.165),
+        ("rbfnn_aekf.relaxation", 0.98),
+        ("rbfnn_aekf.scale_position", 1e3),
+        ("rbfnn_aekf.scale_velocity", 1.0),
+        ("rbfnn_aekf.q_position", 3e-10),
+        ("rbfnn_aekf.q_velocity", 9e-10),
+        ("rbfnn_ekf.learning_rate", 0.165),
+        ("rbfnn_ekf.relaxation", 0.98),
+        ("rbfnn_ekf.scale_position", 1e3),
+        ("rbfnn_ekf.scale_velocity", 1.0),
+        ("rbfnn_ekf.q_position", 3e-10),
+        ("rbfnn_ekf.q_velocity", 9e-10),
     ],
 };
 
-fn gravity(beliefs: &Beliefs) -> Result<Gravity, FilterError> {
+/// Two-body attraction and the zonal harmonics of the beliefs.
+pub(super) fn zonal_gravity(beliefs: &Beliefs) -> Result<Gravity, FilterError> {
     let [j2, j3, j4] = beliefs.gravity_j;
     Ok(Gravity::Zonal(ZonalGravity {
         mu: Bound::Positive.check("gravity.mu", beliefs.gravity_mu, "m3/s2")?,

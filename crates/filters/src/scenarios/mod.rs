@@ -1,5 +1,6 @@
 //! What a filter believes of each world. A scenario is one file with an `ENTRY` and one line in [`SCENARIOS`].
 
+mod formation;
 mod leo_venting;
 mod nrho_venting;
 
@@ -44,7 +45,7 @@ pub struct ScenarioEntry {
 }
 
 /// Every scenario, in the order of the FMU's enumeration.
-pub const SCENARIOS: &[ScenarioEntry] = &[leo_venting::ENTRY, nrho_venting::ENTRY];
+pub const SCENARIOS: &[ScenarioEntry] = &[leo_venting::ENTRY, nrho_venting::ENTRY, formation::ENTRY];
 
 impl ScenarioEntry {
     /// `value`, or the scenario's own when it is left at -1.

@@ -34,6 +34,20 @@ pub(super) const ENTRY: ScenarioEntry = ScenarioEntry {
         ("milton.r_w", 1e-2),
         // 1e-6 nondimensional.
         ("milton.s0", 4.457_858_762_880_507e-12),
+        // The network sees kilometres and metres per second and forgets within a minute: what it learns from the corrections of
+        // the first estimate, hundredths of m/s2, must not stay. Q is that of snc.
+        ("rbfnn_aekf.learning_rate", 0.165),
+        ("rbfnn_aekf.relaxation", 0.98),
+        ("rbfnn_aekf.scale_position", 1e3),
+        ("rbfnn_aekf.scale_velocity", 1.0),
+        ("rbfnn_aekf.q_position", 3e-10),
+        ("rbfnn_aekf.q_velocity", 9e-10),
+        ("rbfnn_ekf.learning_rate", 0.165),
+        ("rbfnn_ekf.relaxation", 0.98),
+        ("rbfnn_ekf.scale_position", 1e3),
+        ("rbfnn_ekf.scale_velocity", 1.0),
+        ("rbfnn_ekf.q_position", 3e-10),
+        ("rbfnn_ekf.q_velocity", 9e-10),
     ],
 };
 

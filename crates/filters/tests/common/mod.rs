@@ -1,12 +1,13 @@
-//! A world made of the filter's own assumptions, for tests and benches.
+//! A world made of the filter's own assumptions, seen by range and angles, for tests and benches.
 
 #![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
 #![allow(missing_docs, reason = "part of test binaries")]
 
+use astro::TargetOrbit;
 use filters::ekf::{Dynamics, InitialSigma, Thrust};
 use filters::state::State;
 use filters::{Gravity, Sample, jerk};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector3, Vector6};
 use numerics::{Generator, Source, spd, stream};
 use rand_distr::{Distribution, StandardNormal};
 
@@ -107,6 +108,8 @@ impl OwnWorld {
             count: self.k,
             time: f64::from(self.k),
             lidar: Some(sensors::lidar::measure(&rho) + noise),
+            metrology: None,
+            target_orbit: TargetOrbit::from_vector(&Vector6::zeros()),
             alpha_c_bc: alpha,
             dcm_bc_n,
         }

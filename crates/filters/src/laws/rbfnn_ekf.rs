@@ -1,0 +1,73 @@
+//! A network learns the unmodelled acceleration, Q stays: the peer of the adaptive filter in Pesce, Silvestrini and Lavagna.
+
+use super::learner::Learner;
+use super::network::{self, Disturbance};
+use super::step_noise::{self, Q_POSITION, Q_VELOCITY};
+use super::{AccelerationModel, Adaptation, FilterEntry, Law, Setup, Step};
+use crate::FilterError;
+use crate::state::TargetMatrix;
+use crate::tunable::Preset;
+use nalgebra::{Vector3, Vector6};
+use serde::{Deserialize, Serialize};
+
+pub(super) const ENTRY: FilterEntry = FilterEntry {
+    name: "rbfnn_ekf",
+    about: "a radial-basis network learns the disturbance, constant Q (Pesce, Silvestrini and Lavagna)",
+    tunables: &network::with::<2, 10>([Q_POSITION, Q_VELOCITY]),
+    presets: &[Preset {
+        name: "paper",
+        about: "the Q that the adaptive filter starts with, as in the paper",
+        sets: &[],
+    }],
+    search: &[
+        network::SEARCH_LEARNING_RATE,
+        network::SEARCH_SHAPE,
+        step_noise::SEARCH_Q_POSITION,
+        step_noise::SEARCH_Q_VELOCITY,
+    ],
+    only: None,
+    build,
+};
+
+fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
+    Ok(RbfnnEkf {
+        learner: Learner::new(setup)?,
+        q: step_noise::rate(setup)?,
+    }
+    .into())
+}
+
+/// The law and its memory; internal units.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct RbfnnEkf {
+    learner: Learner,
+    /// Process noise per unit of time, 9x9.
+    q: TargetMatrix,
+}
+
+impl Adaptation for RbfnnEkf {
+    fn acceleration(&self) -> AccelerationModel {
+        AccelerationModel::Absent
+    }
+
+    fn process_noise(&self, dt: f64) -> TargetMatrix {
+        self.q * dt
+    }
+
+    fn observe(&mut self, step: Step) -> Result<(), FilterError> {
+        self.learner.observe(&step);
+        Ok(())
+    }
+
+    fn look_ahead(&mut self, x: &Vector6<f64>) {
+        self.learner.look_ahead(x);
+    }
+
+    fn disturbance(&self) -> Option<&Disturbance> {
+        Some(self.learner.disturbance())
+    }
+
+    fn s(&self) -> Vector3<f64> {
+        Vector3::zeros()
+    }
+}
