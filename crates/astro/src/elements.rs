@@ -22,6 +22,19 @@ pub struct Elements {
 }
 
 impl Elements {
+    /// Mean anomaly of a place on the orbit, rad, continuous over all turns.
+    ///
+    /// * `true_anomaly`: angle from the periapsis, rad.
+    /// * `e`: eccentricity, in [0, 1).
+    ///
+    /// Source: Kepler's equation after the eccentric anomaly by Broucke and Cefola, Celestial Mechanics 7 (1973), 388.
+    pub fn mean_from_true_anomaly(true_anomaly: f64, e: f64) -> f64 {
+        let (sin, cos) = true_anomaly.sin_cos();
+        let beta = e / (1.0 + (1.0 - e * e).sqrt());
+        let eccentric = true_anomaly - 2.0 * (beta * sin).atan2(1.0 + beta * cos);
+        eccentric - e * eccentric.sin()
+    }
+
     /// Inertial position and velocity, m and m/s, of these osculating elements.
     ///
     /// * `mu`: gravitational parameter, m3/s2, positive.
@@ -116,6 +129,23 @@ mod tests {
         let speed = (MU * (2.0 / distance - 1.0 / e.a)).sqrt();
         assert!((r - Vector3::new(0.0, 0.0, distance)).amax() < 1e-8, "{r}");
         assert!((v - Vector3::new(0.0, -speed, 0.0)).amax() < 1e-10, "{v}");
+    }
+
+    #[test]
+    fn true_anomaly_is_the_angle_from_periapsis() {
+        let e = Elements { e: 0.6, ..elements() };
+        let (periapsis, v) = e.to_state(MU).unwrap();
+        for k in -40..=40 {
+            let angle = 0.3 * f64::from(k);
+            let mean_anomaly = Elements::mean_from_true_anomaly(angle, e.e);
+            let (r, _) = Elements { mean_anomaly, ..e }.to_state(MU).unwrap();
+            let seen = r.dot(&v.normalize()).atan2(r.dot(&periapsis.normalize()));
+            // Either angle is good to a few roundings, slower near the apoapsis by (1 + e) / (1 - e).
+            assert!((seen - angle).sin().abs() < 1e-13, "{angle}: {seen}");
+            // Both anomalies are in the same half turn.
+            let half_turns = |angle: f64| (angle / std::f64::consts::PI).floor();
+            assert!((half_turns(mean_anomaly) - half_turns(angle)).abs() < 0.5, "{angle}: {mean_anomaly}");
+        }
     }
 
     #[test]

@@ -257,15 +257,13 @@ mod tests {
     }
 
     fn inertial(true_anomaly_deg: f64) -> Vector6<f64> {
-        let half = (true_anomaly_deg / 2.0).to_radians().tan();
-        let eccentric = 2.0 * (((1.0 - E) / (1.0 + E)).sqrt() * half).atan();
         let elements = Elements {
             a: AXIS,
             e: E,
             inclination: 98.2_f64.to_radians(),
             node: 79.2_f64.to_radians(),
             argument_of_periapsis: 85.9_f64.to_radians(),
-            mean_anomaly: eccentric - E * eccentric.sin(),
+            mean_anomaly: Elements::mean_from_true_anomaly(true_anomaly_deg.to_radians(), E),
         };
         let (r, v) = elements.to_state(EGM96.mu).unwrap();
         join(&r, &v)

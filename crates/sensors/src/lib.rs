@@ -5,6 +5,7 @@
 
 pub mod accelerometer;
 pub mod lidar;
+pub mod metrology;
 mod noise;
 
 pub use noise::normal3;
