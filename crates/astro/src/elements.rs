@@ -144,7 +144,10 @@ mod tests {
             assert!((seen - angle).sin().abs() < 1e-13, "{angle}: {seen}");
             // Both anomalies are in the same half turn.
             let half_turns = |angle: f64| (angle / std::f64::consts::PI).floor();
-            assert!((half_turns(mean_anomaly) - half_turns(angle)).abs() < 0.5, "{angle}: {mean_anomaly}");
+            assert!(
+                (half_turns(mean_anomaly) - half_turns(angle)).abs() < 0.5,
+                "{angle}: {mean_anomaly}"
+            );
         }
     }
 

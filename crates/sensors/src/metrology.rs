@@ -1,7 +1,7 @@
 //! Relative metrology: the whole state of a chaser relative to its target, position and velocity at once.
 //!
-//! The measured state is `rho`, `rho_dot` in the turning axes of the target's orbit (`astro::relative`), so that h(x) = x and
-//! the Jacobian is the identity.
+//! The measured state is `rho`, `rho_dot` in the turning axes of the target's orbit (`astro::relative`), so that h(x) = x
+//! and the Jacobian is the identity.
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 

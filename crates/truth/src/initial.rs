@@ -1,10 +1,10 @@
 //! The navigation's first estimate, drawn around the truth.
 
 use nalgebra::{SVector, Vector3};
-use numerics::{Source, stream};
-use sensors::normal3;
+use numerics::{Generator, Source, stream};
+use sensors::{metrology, normal3};
 
-use crate::{Params, Vehicles};
+use crate::{Params, Relative, Vehicles};
 
 /// Standard deviations of the initial errors of one vehicle, per axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +32,24 @@ impl InitialSigma {
     }
 }
 
+/// Generator of the errors, and their standard deviations.
+fn errors(params: &Params, own: InitialSigma) -> (Generator, InitialSigma) {
+    let rng = stream(params.study_seed.into(), params.run.into(), Source::InitialError);
+    (rng, own.overridden_by(params))
+}
+
+/// Initial estimate in a world with metrology: rows 1 to 6 are a measurement of its own (rho, rho_dot, LVLH), the rest 0.
+///
+/// * `relative`: the truth at the start time.
+/// * `own`: the scenario's standard deviations.
+pub(crate) fn draw_measurement(params: &Params, own: InitialSigma, relative: &Relative) -> SVector<f64, 18> {
+    let (mut rng, sigma) = errors(params, own);
+    let unit = metrology::measure(&normal3(&mut rng), &normal3(&mut rng));
+    let truth = metrology::measure(&relative.rho_lvlh, &relative.rho_dot_lvlh);
+    let measured = truth + unit.component_mul(&metrology::deviations(sigma.position, sigma.velocity));
+    measured.fixed_resize(0.0)
+}
+
 /// Initial estimate of the state r_tc, v_tc, a_t, r_c, v_c, b_c (SI, axes N; b_c in chaser body axes).
 ///
 /// Target and chaser are mistaken independently of each other, so the relative error is the difference of both errors.
@@ -47,8 +65,7 @@ pub(crate) fn draw_estimate(
     a_t_n: &Vector3<f64>,
     b_c_bc: &Vector3<f64>,
 ) -> SVector<f64, 18> {
-    let sigma = own.overridden_by(params);
-    let mut rng = stream(params.study_seed.into(), params.run.into(), Source::InitialError);
+    let (mut rng, sigma) = errors(params, own);
     let mut error = |sigma: f64| normal3(&mut rng) * sigma;
     let (r_t, v_t, a_t) = (error(sigma.position), error(sigma.velocity), error(sigma.acceleration));
     let (r_c, v_c, b_c) = (error(sigma.position), error(sigma.velocity), error(sigma.bias));

@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::{Scenario, TruthError};
+use crate::{Forces, Scenario, TruthError};
 
-/// What a user may set before a run. Units and meanings stand in [`PARAMETERS`].
+/// What a user may set before a run. Units and meanings stand in [`PARAMETERS`] and [`CHOICES`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs)]
 pub struct Params {
@@ -33,10 +33,18 @@ pub struct Params {
     pub nav_init_sigma_velocity: f64,
     pub nav_init_sigma_acceleration: f64,
     pub nav_init_sigma_bias: f64,
+    pub metrology_sigma_position: f64,
+    pub metrology_sigma_velocity: f64,
+    pub metrology_dropout_probability: f64,
+    pub metrology_outlier_probability: f64,
+    pub metrology_outlier_scale: f64,
+    pub target_mass: f64,
+    pub chaser_mass: f64,
+    pub formation_forces: Forces,
 }
 
 impl Default for Params {
-    /// The first scenario, seed 1, run 0, and the start column of [`PARAMETERS`].
+    /// The first scenario, seed 1, run 0, the first of every choice, and the start column of [`PARAMETERS`].
     fn default() -> Self {
         let mut params = Self {
             scenario: Scenario::default(),
@@ -60,6 +68,14 @@ impl Default for Params {
             nav_init_sigma_velocity: 0.0,
             nav_init_sigma_acceleration: 0.0,
             nav_init_sigma_bias: 0.0,
+            metrology_sigma_position: 0.0,
+            metrology_sigma_velocity: 0.0,
+            metrology_dropout_probability: 0.0,
+            metrology_outlier_probability: 0.0,
+            metrology_outlier_scale: 0.0,
+            target_mass: 0.0,
+            chaser_mass: 0.0,
+            formation_forces: Forces::default(),
         };
         for parameter in PARAMETERS {
             (parameter.values_mut)(&mut params).fill(parameter.start);
@@ -200,7 +216,7 @@ pub const PARAMETERS: &[Parameter] = rows! {
     sample_period: "sample_period", "s", 1.0, AtLeast(1e-3),
         "sensor sampling: sample k is taken at the start time plus k periods";
     vent_scale: "vent.scale", "", 1.0, AtLeast(0.0),
-        "multiplies every vent magnitude; 0 switches vents off";
+        "multiplies every vent magnitude; 0 switches vents off; no effect in formation, where nothing vents";
     lidar_sigma_range: "lidar.sigma_range", "m", 0.08, AtLeast(0.0),
         "standard deviation of the range noise per sample; 0: noise-free";
     lidar_sigma_angle: "lidar.sigma_angle", "rad", 0.04 * std::f64::consts::PI / 180.0, AtLeast(0.0),
@@ -226,14 +242,59 @@ pub const PARAMETERS: &[Parameter] = rows! {
     target_burn_a_t_n: "target_burn.a_t_n", "m/s2", 0.0, Any,
         "acceleration of the target in that manoeuvre, axes N";
     nav_init_sigma_position: "nav_init.sigma_position", "m", -1.0, OwnOrNonNegative,
-        "initial position error of one vehicle, standard deviation per axis; -1: the scenario's own";
+        "initial position error of one vehicle (formation: of chaser minus target), standard deviation per axis; \
+         -1: the scenario's own";
     nav_init_sigma_velocity: "nav_init.sigma_velocity", "m/s", -1.0, OwnOrNonNegative,
-        "initial velocity error of one vehicle, standard deviation per axis; -1: the scenario's own";
+        "initial velocity error of one vehicle (formation: of chaser minus target), standard deviation per axis; \
+         -1: the scenario's own";
     nav_init_sigma_acceleration: "nav_init.sigma_acceleration", "m/s2", -1.0, OwnOrNonNegative,
-        "initial error of the target's acceleration, standard deviation per axis; -1: the scenario's own";
+        "initial error of the target's acceleration, standard deviation per axis; -1: the scenario's own; no effect in \
+         formation";
     nav_init_sigma_bias: "nav_init.sigma_bias", "m/s2", -1.0, OwnOrNonNegative,
-        "initial error of the accelerometer bias, standard deviation per axis; -1: the scenario's own";
+        "initial error of the accelerometer bias, standard deviation per axis; -1: the scenario's own; no effect in \
+         formation";
+    metrology_sigma_position: "metrology.sigma_position", "m", 1e-2, AtLeast(0.0),
+        "standard deviation of the relative position noise per sample and axis; 0: noise-free";
+    metrology_sigma_velocity: "metrology.sigma_velocity", "m/s", 1e-4, AtLeast(0.0),
+        "standard deviation of the relative velocity noise per sample and axis; 0: noise-free";
+    metrology_dropout_probability: "metrology.dropout_probability", "", 0.0, Probability,
+        "probability that a metrology sample is missing";
+    metrology_outlier_probability: "metrology.outlier_probability", "", 0.0, Probability,
+        "probability that a metrology sample is an outlier";
+    metrology_outlier_scale: "metrology.outlier_scale", "", 10.0, AtLeast(0.0),
+        "noise of an outlier in multiples of the standard deviation, on all six components";
+    target_mass: "target.mass", "kg", 100.0, AtLeast(1e-3),
+        "mass of the target, against which air and light push it in formation";
+    chaser_mass: "chaser.mass", "kg", 100.0, AtLeast(1e-3),
+        "mass of the chaser, against which air and light push it in formation";
 };
+
+/// One parameter whose values have names: the row from which the FMU's enumeration and its variable are made.
+#[derive(Debug, Clone, Copy)]
+pub struct Choice {
+    /// Name of the FMI variable.
+    pub name: &'static str,
+    /// Name of its enumeration type.
+    pub type_name: &'static str,
+    /// Meaning, one line.
+    pub about: &'static str,
+    /// Names and meanings of the values; the first is the default.
+    pub items: &'static [(&'static str, &'static str)],
+    /// Place of the value in `items`, from 1.
+    pub get: fn(&Params) -> i32,
+    /// Sets the value at this place; a place that does not exist means the default.
+    pub set: fn(&mut Params, i32),
+}
+
+/// Every parameter with named values beside the scenario, in the order of the FMU's variables.
+pub const CHOICES: &[Choice] = &[Choice {
+    name: "formation.forces",
+    type_name: "Forces",
+    about: "what acts on both vehicles in formation",
+    items: Forces::ITEMS,
+    get: |p| p.formation_forces as i32 + 1,
+    set: |p, ordinal| p.formation_forces = Forces::from_ordinal(ordinal),
+}];
 
 #[cfg(test)]
 mod tests {
@@ -263,6 +324,20 @@ mod tests {
                     other.name
                 );
             }
+        }
+    }
+
+    #[test]
+    fn every_choice_reads_what_it_writes() {
+        for choice in CHOICES {
+            let mut params = Params::default();
+            assert_eq!((choice.get)(&params), 1, "{}", choice.name);
+            for (ordinal, _) in (1..).zip(choice.items) {
+                (choice.set)(&mut params, ordinal);
+                assert_eq!((choice.get)(&params), ordinal, "{}", choice.name);
+            }
+            (choice.set)(&mut params, choice.items.len() as i32 + 1);
+            assert_eq!((choice.get)(&params), 1, "{}", choice.name);
         }
     }
 
@@ -299,6 +374,14 @@ mod tests {
         assert_eq!(
             refused("sample_period", 0.0),
             "sample_period is 0: it must be finite and at least 0.001 s"
+        );
+        assert_eq!(
+            refused("chaser.mass", 0.0),
+            "chaser.mass is 0: it must be finite and at least 0.001 kg"
+        );
+        assert_eq!(
+            refused("metrology.outlier_probability", -0.1),
+            "metrology.outlier_probability is -0.1: it must be between 0 and 1"
         );
         assert_eq!(
             refused("target_burn.a_t_n", f64::NAN),

@@ -1,14 +1,15 @@
 //! One run of a world: time grid, latched inputs, samples.
 
+use astro::{Lvlh, TargetOrbit};
 use nalgebra::{SVector, Vector3};
 use numerics::{Generator, Source, stream};
-use sensors::{accelerometer, normal3};
+use sensors::{accelerometer, metrology, normal3};
 use serde::{Deserialize, Serialize};
 
-use crate::initial::draw_estimate;
-use crate::sampling::{Scene, Sensors};
+use crate::initial::{draw_estimate, draw_measurement};
+use crate::sampling::{Scene, Sensors, View};
 use crate::world::step;
-use crate::{Event, Params, Push, SensorSample, Start, Timeline, TruthError, Vehicles, World};
+use crate::{Event, Instrument, Params, Push, Relative, SensorSample, Start, Timeline, TruthError, Vehicles, World};
 
 /// A time this close to a grid point counts as on it, s.
 const SNAP: f64 = 1e-6;
@@ -53,10 +54,22 @@ pub struct Moment {
     pub time: f64,
     /// Both vehicles, axes N, SI.
     pub state: Vehicles,
-    /// Acceleration of the target beside gravity just after the communication point, N, m/s2.
+    /// Acceleration of the target by vents, burns and input just after the communication point, N, m/s2.
     pub a_t_n: Vector3<f64>,
     /// Accelerometer bias, chaser body axes, m/s2.
     pub b_c_bc: Vector3<f64>,
+    /// Motion in the axes of the target's orbit, in worlds with metrology.
+    pub relative: Option<Relative>,
+}
+
+/// What holds at a place in time.
+struct Instant {
+    /// s since the start of the run.
+    t: f64,
+    state: Vehicles,
+    /// What acts just after it.
+    push: Push,
+    b_c_bc: Vector3<f64>,
 }
 
 /// A place in time: a grid interval and the seconds since its begin.
@@ -117,7 +130,19 @@ impl Simulation {
             });
         }
         let bias = Vector3::repeat(params.accelerometer_bias0);
-        let mut simulation = Self {
+        let begin = Instant {
+            t: 0.0,
+            state,
+            push: push_over(&timeline, 0, params.scenario.entry().grid, inputs),
+            b_c_bc: bias,
+        };
+        let now = moment(params, start_time, &begin);
+        let sigma = world.initial_sigma(params);
+        let initial_estimate = match &now.relative {
+            None => draw_estimate(params, sigma, &state, &now.a_t_n, &bias),
+            Some(relative) => draw_measurement(params, sigma, relative),
+        };
+        Ok(Self {
             params: *params,
             start_time,
             timeline,
@@ -127,19 +152,10 @@ impl Simulation {
             bias_walk: stream(params.study_seed.into(), params.run.into(), Source::AccelerometerBias),
             latched: None,
             sensors: Sensors::new(params),
-            sample: SensorSample::before_the_first(world.dcm_bc_n(&state)),
-            initial_estimate: SVector::zeros(),
-            now: Moment {
-                time: start_time,
-                state,
-                a_t_n: Vector3::zeros(),
-                b_c_bc: bias,
-            },
-        };
-        let a_t_n = simulation.target_acceleration(&state, &simulation.push(inputs));
-        simulation.now.a_t_n = a_t_n;
-        simulation.initial_estimate = draw_estimate(params, world.initial_sigma(), &state, &a_t_n, &bias);
-        Ok(simulation)
+            sample: SensorSample::before_the_first(&scene(params, &begin)),
+            initial_estimate,
+            now,
+        })
     }
 
     /// Goes on to the communication point `t`, s.
@@ -167,7 +183,8 @@ impl Simulation {
             self.take_sample(self.start_time + elapsed, place.offset, inputs);
         }
         self.complete_intervals(end.interval, inputs)?;
-        self.now = self.moment_at(t, end.offset, inputs);
+        let instant = self.instant(end.offset, inputs);
+        self.now = moment(&self.params, t, &instant);
         finite(&self.now.state, t)
     }
 
@@ -189,10 +206,6 @@ impl Simulation {
     /// The events of this run.
     pub fn timeline(&self) -> &Timeline {
         &self.timeline
-    }
-
-    fn world(&self) -> &'static dyn World {
-        self.params.scenario.entry().world
     }
 
     fn grid(&self) -> f64 {
@@ -235,7 +248,7 @@ impl Simulation {
         while self.interval < interval {
             let push = self.push(self.latched.as_ref().unwrap_or(inputs));
             let begin = self.interval as f64 * grid;
-            self.state = step(self.world(), begin, &self.state, &push, grid);
+            self.state = step(world(&self.params), &self.params, begin, &self.state, &push, grid);
             let unit = normal3(&mut self.bias_walk);
             self.bias = self.bias_after(grid, self.params.accelerometer_bias_sigma, &unit);
             self.interval += 1;
@@ -245,57 +258,37 @@ impl Simulation {
         Ok(())
     }
 
-    /// The truth `offset` seconds into the present interval.
-    fn moment_at(&mut self, time: f64, offset: f64, inputs: &Inputs) -> Moment {
+    /// The world `offset` seconds into the present interval.
+    fn instant(&mut self, offset: f64, inputs: &Inputs) -> Instant {
+        let begin = self.interval as f64 * self.grid();
         if offset <= 0.0 {
-            let a_t_n = self.target_acceleration(&self.state, &self.push(inputs));
-            return Moment {
-                time,
+            return Instant {
+                t: begin,
                 state: self.state,
-                a_t_n,
+                push: self.push(self.latched.as_ref().unwrap_or(inputs)),
                 b_c_bc: self.bias,
             };
         }
         let latched = *self.latched.get_or_insert(*inputs);
         let push = self.push(&latched);
-        let state = step(
-            self.world(),
-            self.interval as f64 * self.grid(),
-            &self.state,
-            &push,
-            offset,
-        );
-        Moment {
-            time,
-            state,
-            a_t_n: self.target_acceleration(&state, &push),
+        Instant {
+            t: begin + offset,
+            state: step(world(&self.params), &self.params, begin, &self.state, &push, offset),
+            push,
             b_c_bc: self.bias_after(offset, 0.0, &Vector3::zeros()),
         }
     }
 
     /// Takes the next sample, `offset` seconds into the present interval.
     fn take_sample(&mut self, time: f64, offset: f64, inputs: &Inputs) {
-        let moment = self.moment_at(time, offset, inputs);
-        let scene = Scene {
-            r_tc_n: moment.state.r_tc(),
-            force_c_n: self.push(self.latched.as_ref().unwrap_or(inputs)).chaser_n,
-            dcm_bc_n: self.world().dcm_bc_n(&moment.state),
-            b_c_bc: moment.b_c_bc,
-        };
+        let instant = self.instant(offset, inputs);
+        let scene = scene(&self.params, &instant);
         self.sample = self.sensors.sample(&self.params, &self.sample, time, &scene);
     }
 
     /// What acts over the present interval, given the inputs that act.
     fn push(&self, inputs: &Inputs) -> Push {
-        let midpoint = (self.interval as f64 + 0.5) * self.grid();
-        self.timeline.push_around(midpoint) + inputs.push()
-    }
-
-    fn target_acceleration(&self, state: &Vehicles, push: &Push) -> Vector3<f64> {
-        if push.target_bt == Vector3::zeros() {
-            return push.target_n;
-        }
-        push.target_n + self.world().dcm_bt_n(state).tr_mul(&push.target_bt)
+        push_over(&self.timeline, self.interval, self.grid(), inputs)
     }
 
     fn bias_after(&self, dt: f64, sigma: f64, unit: &Vector3<f64>) -> Vector3<f64> {
@@ -306,6 +299,55 @@ impl Simulation {
             sigma,
             unit,
         )
+    }
+}
+
+fn world(params: &Params) -> &'static dyn World {
+    params.scenario.entry().world
+}
+
+/// What acts over a grid interval, given the inputs that act.
+fn push_over(timeline: &Timeline, interval: u64, grid: f64, inputs: &Inputs) -> Push {
+    timeline.push_around((interval as f64 + 0.5) * grid) + inputs.push()
+}
+
+/// What the outputs show of an instant.
+fn moment(params: &Params, time: f64, instant: &Instant) -> Moment {
+    let Instant { t, state, push, b_c_bc } = instant;
+    let world = world(params);
+    Moment {
+        time,
+        state: *state,
+        a_t_n: world.push_on_target(state, push),
+        b_c_bc: *b_c_bc,
+        relative: match world.instrument() {
+            Instrument::Lidar => None,
+            Instrument::Metrology(reference) => Some(Relative::new(world, params, *t, state, push, &reference)),
+        },
+    }
+}
+
+/// What the sensors meet at an instant.
+fn scene(params: &Params, instant: &Instant) -> Scene {
+    let Instant { t, state, push, b_c_bc } = instant;
+    let world = world(params);
+    let surroundings = world.surroundings(params, *t, state);
+    let view = match world.instrument() {
+        Instrument::Lidar => View::Lidar { r_tc_n: state.r_tc() },
+        Instrument::Metrology(_) => {
+            let a_t_n = surroundings.target.sum() + world.push_on_target(state, push);
+            let (rho, rho_dot) = Lvlh::new(&state.r_t, &state.v_t, &a_t_n).relative(&state.r_c, &state.v_c);
+            View::Metrology {
+                x_lvlh: metrology::measure(&rho, &rho_dot),
+                target_orbit: TargetOrbit::from_state(&state.r_t, &state.v_t),
+            }
+        }
+    };
+    Scene {
+        view,
+        force_c_n: surroundings.chaser.surface + push.chaser_n,
+        dcm_bc_n: world.dcm_bc_n(state),
+        b_c_bc: *b_c_bc,
     }
 }
 

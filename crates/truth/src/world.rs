@@ -1,6 +1,6 @@
 //! What a world decides, and the list of worlds.
 
-use astro::frames;
+use astro::{ClohessyWiltshire, frames};
 use nalgebra::{Matrix3, SVector, Vector3};
 use numerics::rk4;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,11 @@ use crate::initial::InitialSigma;
 use crate::{Params, Push, Timeline, TruthError, Vehicles, worlds};
 
 /// Every world, in the order of the FMU's `scenario` enumeration. To add one: a file under `worlds/` and a line here.
-pub const WORLDS: &[WorldEntry] = &[worlds::leo_venting::ENTRY, worlds::nrho_venting::ENTRY];
+pub const WORLDS: &[WorldEntry] = &[
+    worlds::leo_venting::ENTRY,
+    worlds::nrho_venting::ENTRY,
+    worlds::formation::ENTRY,
+];
 
 /// One line of [`WORLDS`].
 #[derive(Clone, Copy)]
@@ -34,29 +38,36 @@ pub trait World: Sync {
     /// When the world's orbit cannot be computed.
     fn start(&self, params: &Params) -> Result<Start, TruthError>;
 
-    /// Acceleration of a vehicle by nothing but the field it moves in, axes N, m/s2.
-    fn gravity(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64>;
+    /// What the surroundings do to the vehicles.
+    ///
+    /// * `t`: s since the start of the run.
+    fn surroundings(&self, params: &Params, t: f64, state: &Vehicles) -> Surroundings;
 
     /// Normal of a vehicle's orbit, axes N, any length.
     fn orbit_normal(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64>;
 
     /// Rate of change of the state.
     ///
-    /// * `_t`: s since the start of the run.
-    /// * `push`: what acts beside gravity.
+    /// * `t`: s since the start of the run.
+    /// * `push`: what acts beside the surroundings.
     /// * returns: velocities and accelerations in the places of positions and velocities.
-    fn derivative(&self, _t: f64, state: &Vehicles, push: &Push) -> Vehicles {
-        let mut on_target = push.target_n;
-        // The attitude costs as much as gravity and matters only to vents.
-        if push.target_bt != Vector3::zeros() {
-            on_target += self.dcm_bt_n(state).tr_mul(&push.target_bt);
-        }
+    fn derivative(&self, params: &Params, t: f64, state: &Vehicles, push: &Push) -> Vehicles {
+        let Surroundings { target, chaser } = self.surroundings(params, t, state);
         Vehicles {
             r_t: state.v_t,
-            v_t: self.gravity(&state.r_t, &state.v_t) + on_target,
+            v_t: target.sum() + self.push_on_target(state, push),
             r_c: state.v_c,
-            v_c: self.gravity(&state.r_c, &state.v_c) + push.chaser_n,
+            v_c: chaser.sum() + push.chaser_n,
         }
+    }
+
+    /// Acceleration of the target by `push`, axes N, m/s2.
+    fn push_on_target(&self, state: &Vehicles, push: &Push) -> Vector3<f64> {
+        // The attitude costs as much as gravity and matters only to vents.
+        if push.target_bt == Vector3::zeros() {
+            return push.target_n;
+        }
+        push.target_n + self.dcm_bt_n(state).tr_mul(&push.target_bt)
     }
 
     /// Attitude of the target, which looks at the chaser: `dcm_bt_n`, maps N to target body axes.
@@ -73,8 +84,62 @@ pub trait World: Sync {
         frames::los_body_axes(&state.r_tc(), &state.v_tc(), &self.orbit_normal(&state.r_c, &state.v_c))
     }
 
+    /// With what the chaser measures where the target is.
+    fn instrument(&self) -> Instrument {
+        Instrument::Lidar
+    }
+
     /// Standard deviations of the initial estimate where the parameters leave them to the scenario.
-    fn initial_sigma(&self) -> InitialSigma;
+    fn initial_sigma(&self, params: &Params) -> InitialSigma;
+}
+
+/// Accelerations of both vehicles by their surroundings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surroundings {
+    /// Of the target.
+    pub target: Ambient,
+    /// Of the chaser.
+    pub chaser: Ambient,
+}
+
+impl Surroundings {
+    /// A field of gravity, a function of position and velocity (axes N, m and m/s), and nothing else.
+    pub fn field(state: &Vehicles, gravity: impl Fn(&Vector3<f64>, &Vector3<f64>) -> Vector3<f64>) -> Self {
+        let of = |r, v| Ambient {
+            gravity: gravity(r, v),
+            surface: Vector3::zeros(),
+        };
+        Self {
+            target: of(&state.r_t, &state.v_t),
+            chaser: of(&state.r_c, &state.v_c),
+        }
+    }
+}
+
+/// Accelerations of a vehicle by its surroundings, axes N, m/s2.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ambient {
+    /// By fields that pull on every part alike; an accelerometer does not feel them.
+    pub gravity: Vector3<f64>,
+    /// By air and light on the surface; an accelerometer feels it.
+    pub surface: Vector3<f64>,
+}
+
+impl Ambient {
+    /// Both together.
+    pub fn sum(&self) -> Vector3<f64> {
+        self.gravity + self.surface
+    }
+}
+
+/// The chaser's instrument.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Instrument {
+    /// Range and angles to the target; the initial estimate is an inertial state.
+    Lidar,
+    /// The whole state relative to the target, in the axes of the target's orbit, beside that orbit itself; the initial
+    /// estimate is such a measurement. The true relative acceleration is told less that of this model.
+    Metrology(ClohessyWiltshire),
 }
 
 /// How a run begins.
@@ -127,9 +192,9 @@ impl From<Scenario> for i32 {
 }
 
 /// State at the end of a step of length `h` (negative: backwards) that begins at `t`, s since the start of the run.
-pub(crate) fn step(world: &dyn World, t: f64, state: &Vehicles, push: &Push, h: f64) -> Vehicles {
+pub(crate) fn step(world: &dyn World, params: &Params, t: f64, state: &Vehicles, push: &Push, h: f64) -> Vehicles {
     let end = rk4::step(t, &state.to_vector(), h, |t, x| -> SVector<f64, 12> {
-        world.derivative(t, &Vehicles::from_vector(x), push).to_vector()
+        world.derivative(params, t, &Vehicles::from_vector(x), push).to_vector()
     });
     Vehicles::from_vector(&end)
 }
@@ -140,6 +205,7 @@ pub(crate) fn step(world: &dyn World, t: f64, state: &Vehicles, push: &Push, h: 
 /// * `grid`: interval of the time grid, s.
 pub(crate) fn back_propagate(
     world: &dyn World,
+    params: &Params,
     timeline: &Timeline,
     last: &Vehicles,
     intervals: u32,
@@ -147,7 +213,7 @@ pub(crate) fn back_propagate(
 ) -> Vehicles {
     (0..intervals).rev().fold(*last, |state, k| {
         let push = timeline.push_around((f64::from(k) + 0.5) * grid);
-        step(world, f64::from(k + 1) * grid, &state, &push, -grid)
+        step(world, params, f64::from(k + 1) * grid, &state, &push, -grid)
     })
 }
 

@@ -1,10 +1,11 @@
-//! Runs of the LEO world through the public interface: the time grid, inputs, samples, faults, saved state.
+//! Runs through the public interface: time grid and saved state of every world; inputs, samples and faults of the LEO
+//! one.
 // Bit equality is what is tested, and helpers outside of `#[test]` functions unwrap.
 #![allow(clippy::float_cmp, clippy::unwrap_used)]
 
 use nalgebra::Vector3;
 use proptest::prelude::*;
-use truth::{Inputs, Params, SensorSample, Simulation, TruthError};
+use truth::{Inputs, Params, Scenario, SensorSample, Simulation, TruthError, WORLDS};
 
 fn simulation(params: &Params) -> Simulation {
     Simulation::new(params, 0.0, &Inputs::default()).unwrap()
@@ -44,8 +45,13 @@ fn shove() -> Inputs {
     }
 }
 
+/// Any of the worlds.
+fn scenario() -> impl Strategy<Value = Scenario> {
+    (1..=WORLDS.len() as i32).prop_map(|ordinal| Scenario::try_from(ordinal).unwrap())
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 16, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn samples_do_not_depend_on_the_communication_points(
@@ -55,13 +61,14 @@ proptest! {
         ),
         period in prop_oneof![Just(1.0), Just(0.25), Just(0.3), Just(2.5), Just(0.1)],
         start_time in prop_oneof![Just(0.0), Just(-17.25), Just(1e5)],
+        scenario in scenario(),
     ) {
-        let params = Params { sample_period: period, vent_scale: 1e3, run: 3, ..Params::default() };
+        let params = Params { scenario, sample_period: period, vent_scale: 1e3, run: 3, ..Params::default() };
         let inputs = shove();
         let mut coarse = Simulation::new(&params, start_time, &inputs).unwrap();
-        // A vent begins among the steps.
-        let first_vent = coarse.timeline().events[0].start;
-        let skip = start_time + first_vent - 5.0;
+        // A vent, where there are any, begins among the steps.
+        let first_event = coarse.timeline().events.first().map_or(30.0, |event| event.start);
+        let skip = start_time + first_event - 5.0;
         coarse.advance_to(skip, &inputs).unwrap();
         let mut reference = coarse.clone();
         let mut t = skip;
@@ -86,8 +93,18 @@ proptest! {
     }
 
     #[test]
-    fn saved_runs_go_on_alike(before in 0.0..200.0_f64, steps in prop::collection::vec(0.01..3.0_f64, 1..50)) {
-        let params = Params { vent_scale: 1e3, lidar_dropout_probability: 0.3, ..Params::default() };
+    fn saved_runs_go_on_alike(
+        before in 0.0..200.0_f64,
+        steps in prop::collection::vec(0.01..3.0_f64, 1..50),
+        scenario in scenario(),
+    ) {
+        let params = Params {
+            scenario,
+            vent_scale: 1e3,
+            lidar_dropout_probability: 0.3,
+            metrology_dropout_probability: 0.3,
+            ..Params::default()
+        };
         let inputs = shove();
         let mut run = simulation(&params);
         // Stops inside an interval, whose inputs are latched.

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use crate::initial::InitialSigma;
 use crate::world::back_propagate;
-use crate::{Event, Params, Push, Start, Timeline, TruthError, Vehicles, World, WorldEntry, vents};
+use crate::{Event, Params, Push, Start, Surroundings, Timeline, TruthError, Vehicles, World, WorldEntry, vents};
 
 /// The registry line.
 pub(crate) const ENTRY: WorldEntry = WorldEntry {
@@ -49,19 +49,19 @@ impl World for LeoVenting {
         let mut events = vents::draw(params);
         events.push(burn());
         let timeline = Timeline { events };
-        let state = back_propagate(self, &timeline, &rendezvous()?, INTERVALS, GRID);
+        let state = back_propagate(self, params, &timeline, &rendezvous()?, INTERVALS, GRID);
         Ok(Start { state, timeline })
     }
 
-    fn gravity(&self, r: &Vector3<f64>, _v: &Vector3<f64>) -> Vector3<f64> {
-        earth::TRUTH.acceleration(r)
+    fn surroundings(&self, _params: &Params, _t: f64, state: &Vehicles) -> Surroundings {
+        Surroundings::field(state, |r, _| earth::TRUTH.acceleration(r))
     }
 
     fn orbit_normal(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
         r.cross(v)
     }
 
-    fn initial_sigma(&self) -> InitialSigma {
+    fn initial_sigma(&self, _params: &Params) -> InitialSigma {
         // Eq. (35).
         InitialSigma {
             position: 25.0 / 3.0,
@@ -105,7 +105,7 @@ mod tests {
         (0..INTERVALS).fold(start.state, |state, k| {
             each(&state);
             let push = start.timeline.push_around(f64::from(k) + 0.5);
-            step(&LeoVenting, f64::from(k), &state, &push, GRID)
+            step(&LeoVenting, params, f64::from(k), &state, &push, GRID)
         })
     }
 
@@ -186,13 +186,14 @@ mod tests {
 
     #[test]
     fn vent_pushes_along_its_body_direction() {
-        let state = LeoVenting.start(&Params::default()).unwrap().state;
+        let params = Params::default();
+        let state = LeoVenting.start(&params).unwrap().state;
         let push = Push {
             target_bt: Vector3::new(-0.5, -0.866, 0.0),
             ..Push::default()
         };
-        let quiet = LeoVenting.derivative(0.0, &state, &Push::default());
-        let vented = LeoVenting.derivative(0.0, &state, &push);
+        let quiet = LeoVenting.derivative(&params, 0.0, &state, &Push::default());
+        let vented = LeoVenting.derivative(&params, 0.0, &state, &push);
         let felt = vented.v_t - quiet.v_t;
         // Body y points to the chaser, body z along the normal of the relative motion; x = y cross z.
         let y = -state.r_tc().normalize();

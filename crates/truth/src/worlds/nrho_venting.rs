@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::initial::InitialSigma;
 use crate::world::back_propagate;
-use crate::{Event, Params, Push, Start, Timeline, TruthError, Vehicles, World, WorldEntry, vents};
+use crate::{Event, Params, Push, Start, Surroundings, Timeline, TruthError, Vehicles, World, WorldEntry, vents};
 
 /// The registry line.
 pub(crate) const ENTRY: WorldEntry = WorldEntry {
@@ -56,12 +56,14 @@ impl World for NrhoVenting {
         let mut events = vents::draw(params);
         events.extend(burn());
         let timeline = Timeline { events };
-        let state = back_propagate(self, &timeline, &rendezvous(), INTERVALS, GRID);
+        let state = back_propagate(self, params, &timeline, &rendezvous(), INTERVALS, GRID);
         Ok(Start { state, timeline })
     }
 
-    fn gravity(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
-        GRAVITY.acceleration(&(r / LENGTH), &(v * (TIME / LENGTH))) * (LENGTH / (TIME * TIME))
+    fn surroundings(&self, _params: &Params, _t: f64, state: &Vehicles) -> Surroundings {
+        Surroundings::field(state, |r, v| {
+            GRAVITY.acceleration(&(r / LENGTH), &(v * (TIME / LENGTH))) * (LENGTH / (TIME * TIME))
+        })
     }
 
     /// Of the orbit about the Moon.
@@ -70,7 +72,7 @@ impl World for NrhoVenting {
         from_moon.cross(&(v + Vector3::z().cross(&from_moon) / TIME))
     }
 
-    fn initial_sigma(&self) -> InitialSigma {
+    fn initial_sigma(&self, _params: &Params) -> InitialSigma {
         // Eq. (37), nondimensional.
         InitialSigma {
             position: 2.5e-8 * LENGTH,
@@ -121,7 +123,7 @@ mod tests {
         (0..INTERVALS).fold(start.state, |state, k| {
             each(&state);
             let push = start.timeline.push_around(f64::from(k) + 0.5);
-            step(&NrhoVenting, f64::from(k), &state, &push, GRID)
+            step(&NrhoVenting, params, f64::from(k), &state, &push, GRID)
         })
     }
 
