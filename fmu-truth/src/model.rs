@@ -30,7 +30,7 @@ impl Model for TruthModel {
         INFO.get_or_init(|| ModelInfo {
             model_name: "fmu-truth",
             model_identifier: "fmu_truth",
-            description: "Simulated world of a chaser that approaches a venting target, with the chaser's sensors",
+            description: "Simulated worlds of a chaser and its target, with the chaser's sensors",
             version: env!("CARGO_PKG_VERSION"),
             license: "MIT",
             default_stop: WORLDS[0].duration,

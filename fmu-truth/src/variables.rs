@@ -3,8 +3,9 @@
 //! Names, units and meanings that outside programs rely on are fixed; more may be added.
 
 use crate::model::TruthModel;
+use astro::TargetOrbit;
 use fmi2_export::{Table, TableBuilder};
-use truth::{Bound, LidarSample, Moment, PARAMETERS, Parameter, Params, Scenario, WORLDS};
+use truth::{Bound, CHOICES, Choice, LidarSample, Moment, PARAMETERS, Parameter, Params, Scenario, WORLDS};
 
 type Builder = TableBuilder<TruthModel>;
 
@@ -16,12 +17,19 @@ pub fn table() -> Table<TruthModel> {
         "world that is simulated",
         WORLDS.iter().map(|world| (world.name, world.about)),
     );
+    for choice in CHOICES {
+        t.enumeration_type(choice.type_name, choice.about, choice.items.iter().copied());
+    }
     study(&mut t);
+    for choice in CHOICES {
+        choice_row(&mut t, choice);
+    }
     for parameter in PARAMETERS {
         parameter_row(&mut t, parameter);
     }
     inputs(&mut t);
     sensors(&mut t);
+    metrology(&mut t);
     initial_estimate(&mut t);
     truth(&mut t);
     t.build()
@@ -52,6 +60,14 @@ fn study(t: &mut Builder) {
         .start(0)
         .about("run within the study; with the seed it selects every random stream")
         .rw(|m| m.params.run as i32, |m, v| m.params.run = v.unsigned_abs());
+}
+
+fn choice_row(t: &mut Builder, choice: &'static Choice) {
+    t.enumeration(choice.name, choice.type_name)
+        .parameter()
+        .start(1)
+        .about(choice.about)
+        .rw(|m| (choice.get)(&m.params), |m, v| (choice.set)(&mut m.params, v));
 }
 
 fn parameter_row(t: &mut Builder, parameter: &'static Parameter) {
@@ -156,15 +172,71 @@ fn sensors(t: &mut Builder) {
         .matrix(3, 3, |m, i, j| m.read(|s| s.sample().dcm_bc_n[(i, j)]));
 }
 
+/// What the newest sample holds in worlds with metrology; zero in the others.
+fn metrology(t: &mut Builder) {
+    t.boolean("metrology.valid")
+        .output()
+        .about("whether the metrology saw the target; if not, its measurement keeps the last values")
+        .get(|m| m.read(|s| s.sample().metrology.valid));
+    t.real("metrology.rho_lvlh")
+        .output()
+        .discrete()
+        .unit("m")
+        .about("measured position of the chaser relative to the target, LVLH axes of the target; formation")
+        .vector(3, |m, i| m.read(|s| s.sample().metrology.rho_lvlh[i]));
+    t.real("metrology.rho_dot_lvlh")
+        .output()
+        .discrete()
+        .unit("m/s")
+        .about("measured rate of that position as seen in the turning LVLH axes; formation")
+        .vector(3, |m, i| m.read(|s| s.sample().metrology.rho_dot_lvlh[i]));
+    type Element = fn(&TargetOrbit) -> f64;
+    let elements: [(&str, &str, &str, Element); 5] = [
+        ("target_orbit.r", "m", "geocentric distance of the target", |o| o.r),
+        ("target_orbit.r_dot", "m/s", "rate of that distance", |o| o.r_dot),
+        (
+            "target_orbit.h",
+            "m2/s",
+            "angular momentum of the target per unit mass",
+            |o| o.h,
+        ),
+        (
+            "target_orbit.inclination",
+            "rad",
+            "inclination of the target's orbit",
+            |o| o.inclination,
+        ),
+        (
+            "target_orbit.argument_of_latitude",
+            "rad",
+            "angle from the ascending node to the target, in (-pi, pi]",
+            |o| o.argument_of_latitude,
+        ),
+    ];
+    for (name, unit, about, element) in elements {
+        let row = t.real(name).output().discrete().unit(unit).about(format!(
+            "{about}, at the epoch of the newest sample, before the first at the start; formation"
+        ));
+        let row = if unit == "rad" { row.display_unit("deg") } else { row };
+        row.get(move |m| m.read(|s| s.sample().target_orbit.as_ref().map_or(0.0, element)));
+    }
+}
+
 fn initial_estimate(t: &mut Builder) {
     /// Unit and meaning of each group of three.
     const PARTS: [(&str, &str); 6] = [
-        ("m", "position of the target relative to the chaser, axes N"),
-        ("m/s", "velocity of the target relative to the chaser, axes N"),
-        ("m/s2", "unmodelled acceleration of the target, axes N"),
-        ("m", "position of the chaser, axes N"),
-        ("m/s", "velocity of the chaser, axes N"),
-        ("m/s2", "accelerometer bias, chaser body axes"),
+        (
+            "m",
+            "position of the target relative to the chaser, axes N; formation: as metrology.rho_lvlh",
+        ),
+        (
+            "m/s",
+            "velocity of the target relative to the chaser, axes N; formation: as metrology.rho_dot_lvlh",
+        ),
+        ("m/s2", "unmodelled acceleration of the target, axes N; formation: 0"),
+        ("m", "position of the chaser, axes N; formation: 0"),
+        ("m/s", "velocity of the chaser, axes N; formation: 0"),
+        ("m/s2", "accelerometer bias, chaser body axes; formation: 0"),
     ];
     t.real("nav_init.x")
         .output()
@@ -178,7 +250,7 @@ fn initial_estimate(t: &mut Builder) {
 /// The true state at the communication point.
 fn truth(t: &mut Builder) {
     type Part = fn(&Moment, usize) -> f64;
-    let parts: [(&str, &str, &str, Part); 6] = [
+    let parts: [(&str, &str, &str, Part); 9] = [
         (
             "truth.r_tc_n",
             "m",
@@ -194,7 +266,7 @@ fn truth(t: &mut Builder) {
         (
             "truth.a_t_n",
             "m/s2",
-            "true acceleration of the target beside gravity, axes N, just after this time",
+            "true acceleration of the target by vents, target_burn and a_dist_t_n, axes N, just after this time",
             |now, i| now.a_t_n[i],
         ),
         ("truth.r_c_n", "m", "true position of the chaser, axes N", |now, i| {
@@ -209,11 +281,33 @@ fn truth(t: &mut Builder) {
             "true accelerometer bias, chaser body axes",
             |now, i| now.b_c_bc[i],
         ),
+        (
+            "truth.rho_lvlh",
+            "m",
+            "true position of the chaser relative to the target, LVLH axes of the target; formation",
+            |now, i| now.relative.map_or(0.0, |r| r.rho_lvlh[i]),
+        ),
+        (
+            "truth.rho_dot_lvlh",
+            "m/s",
+            "true rate of that position as seen in the turning LVLH axes; formation",
+            |now, i| now.relative.map_or(0.0, |r| r.rho_dot_lvlh[i]),
+        ),
+        (
+            "truth.d_lvlh",
+            "m/s2",
+            "true relative acceleration less that of Clohessy-Wiltshire motion, LVLH axes, just after this time; formation",
+            |now, i| now.relative.map_or(0.0, |r| r.d_lvlh[i]),
+        ),
     ];
     for (name, unit, about, part) in parts {
         let mut row = t.real(name).output().unit(unit).about(about);
-        if name == "truth.a_t_n" {
+        // Accelerations as such, and through the turning of the target's axes.
+        if matches!(name, "truth.a_t_n" | "truth.rho_dot_lvlh" | "truth.d_lvlh") {
             row = row.initially_from("a_dist_t_n");
+        }
+        if name == "truth.d_lvlh" {
+            row = row.initially_from("a_cmd_c_n");
         }
         row.vector(3, move |m, i| m.read(|s| part(s.now(), i)));
     }
@@ -224,10 +318,23 @@ mod tests {
     use super::*;
     use fmi2_export::{Experiment, Log, Model, Typed};
 
-    #[test]
-    fn outputs_show_the_run() {
+    /// Value of a Real variable.
+    fn real(model: &TruthModel, name: &str) -> f64 {
+        let table = TruthModel::table();
+        let variable = table
+            .find(name)
+            .and_then(|reference| table.variable(reference))
+            .unwrap();
+        let Typed::Real { access, .. } = &variable.typed else {
+            panic!("{name} is not Real")
+        };
+        access.read(model)
+    }
+
+    fn run(scenario: i32) -> TruthModel {
         let mut model = TruthModel::blank();
         TruthModel::table().apply_start(&mut model);
+        model.params.scenario = Scenario::try_from(scenario).unwrap();
         model.params.sample_period = 2.0;
         let experiment = Experiment {
             start_time: 10.0,
@@ -237,6 +344,12 @@ mod tests {
         model.initialise(&experiment, &mut Log::silent()).unwrap();
         model.inputs.a_dist_t_n[2] = 1e-3;
         model.do_step(10.0, 5.0, &mut Log::silent()).unwrap();
+        model
+    }
+
+    #[test]
+    fn outputs_show_the_run() {
+        let model = run(1);
         let simulation = model.simulation.clone().unwrap();
         let (sample, now) = (simulation.sample(), simulation.now());
         let expected = [
@@ -254,17 +367,39 @@ mod tests {
             ("truth.r_c_n[1]", now.state.r_c.x),
             ("truth.v_c_n[3]", now.state.v_c.z),
             ("truth.b_c_bc[2]", now.b_c_bc.y),
+            ("metrology.rho_lvlh[2]", 0.0),
+            ("target_orbit.r", 0.0),
+            ("truth.d_lvlh[1]", 0.0),
         ];
         for (name, value) in expected {
-            let table = TruthModel::table();
-            let variable = table
-                .find(name)
-                .and_then(|reference| table.variable(reference))
-                .unwrap();
-            let Typed::Real { access, .. } = &variable.typed else {
-                panic!("{name} is not Real")
-            };
-            assert_eq!(access.read(&model).to_bits(), value.to_bits(), "{name}");
+            assert_eq!(real(&model, name).to_bits(), value.to_bits(), "{name}");
+        }
+    }
+
+    #[test]
+    fn outputs_show_the_formation() {
+        let model = run(3);
+        let simulation = model.simulation.clone().unwrap();
+        let (sample, relative) = (simulation.sample(), simulation.now().relative.unwrap());
+        let orbit = sample.target_orbit.unwrap();
+        let expected = [
+            ("sample_time", 14.0),
+            ("lidar.range", 0.0),
+            ("metrology.rho_lvlh[2]", sample.metrology.rho_lvlh.y),
+            ("metrology.rho_dot_lvlh[1]", sample.metrology.rho_dot_lvlh.x),
+            ("target_orbit.r", orbit.r),
+            ("target_orbit.r_dot", orbit.r_dot),
+            ("target_orbit.h", orbit.h),
+            ("target_orbit.inclination", orbit.inclination),
+            ("target_orbit.argument_of_latitude", orbit.argument_of_latitude),
+            ("nav_init.x[2]", simulation.initial_estimate()[1]),
+            ("truth.rho_lvlh[2]", relative.rho_lvlh.y),
+            ("truth.rho_dot_lvlh[3]", relative.rho_dot_lvlh.z),
+            ("truth.d_lvlh[1]", relative.d_lvlh.x),
+            ("truth.a_t_n[3]", 1e-3),
+        ];
+        for (name, value) in expected {
+            assert_eq!(real(&model, name).to_bits(), value.to_bits(), "{name}");
         }
     }
 }
