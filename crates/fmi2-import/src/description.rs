@@ -44,6 +44,8 @@ pub struct ModelDescription {
     pub variables: Vec<Variable>,
     /// Named parameter sets from the `trade-harness` vendor annotation; empty in FMUs without one.
     pub presets: Vec<Preset>,
+    /// Filters that have a meaning in some scenarios only, from the same annotation; the others have one everywhere.
+    pub meanings: Vec<Meaning>,
     /// Position in `variables` by name.
     pub(crate) index: HashMap<String, usize>,
 }
@@ -161,6 +163,17 @@ pub struct Preset {
     pub about: String,
     /// Variable names and the texts to set them to.
     pub sets: Vec<(String, String)>,
+}
+
+/// Where a filter has a meaning.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Meaning {
+    /// The filter.
+    pub filter: String,
+    /// The scenarios in which it has one.
+    pub scenarios: Vec<String>,
+    /// Why not in the others.
+    pub why: String,
 }
 
 /// Role of a variable.
@@ -365,6 +378,15 @@ impl ModelDescription {
             name: name.to_owned(),
             suggestion: suggest(name, self.variables.iter().map(|v| v.name.as_str())),
         })
+    }
+
+    /// Why a filter has no meaning in a scenario; `None` where it has one.
+    #[must_use]
+    pub fn without_meaning(&self, filter: &str, scenario: &str) -> Option<&str> {
+        self.meanings
+            .iter()
+            .find(|m| m.filter == filter && !m.scenarios.iter().any(|s| s == scenario))
+            .map(|m| m.why.as_str())
     }
 
     /// Value references of the Reals `name[1]`..`name[n]`.

@@ -42,7 +42,9 @@ const XML: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
         <Set variable="milton.residuals" value="consistent"/>
         <Set variable="milton.m_b" value="3"/>
       </Preset>
-    </Presets></Tool>
+    </Presets><Meaning>
+      <Only filter="observer" scenarios="formation, far" why="it needs the state measured in full"/>
+    </Meaning></Tool>
   </VendorAnnotations>
   <ModelVariables>
     <ScalarVariable name="gate" valueReference="7" description="a bound" causality="parameter" variability="fixed" initial="exact">
@@ -153,6 +155,30 @@ fn presets_are_read_from_our_annotation_alone() {
 
     let error = describe(&XML.replace("value=\"3\"/>", "/>")).unwrap_err();
     assert!(error.to_string().contains("a Set has no value attribute"), "{error}");
+}
+
+#[test]
+fn a_filter_has_a_meaning_everywhere_unless_the_annotation_says_otherwise() {
+    let nav = nav();
+    assert_eq!(nav.meanings.len(), 1);
+    let why = "it needs the state measured in full";
+    for (filter, scenario, expected) in [
+        ("observer", "formation", None),
+        ("observer", "far", None),
+        ("observer", "form", Some(why)),
+        ("milton", "form", None),
+    ] {
+        assert_eq!(
+            nav.without_meaning(filter, scenario),
+            expected,
+            "{filter} in {scenario}"
+        );
+    }
+    for attribute in ["filter=\"observer\"", "scenarios=\"formation, far\""] {
+        let error = describe(&XML.replace(attribute, "")).unwrap_err().to_string();
+        let name = attribute.split('=').next().unwrap();
+        assert!(error.contains(&format!("an Only has no {name} attribute")), "{error}");
+    }
 }
 
 #[test]

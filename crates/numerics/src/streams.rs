@@ -37,6 +37,8 @@ pub enum Source {
     NetworkCentres = 11,
     /// Metrology noise of the formation world.
     Metrology = 12,
+    /// Parameters that a study varies from run to run.
+    Variation = 13,
 }
 
 /// Generator for one cause of randomness in one run; equal arguments give equal streams.

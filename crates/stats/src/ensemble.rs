@@ -139,6 +139,17 @@ impl Ensemble {
         (runs > 0.0).then(|| (sum / runs).sqrt())
     }
 
+    /// Root mean square, over runs and epochs, of the error on each axis; `None` without any error.
+    pub fn rmse_by_axis(&self, epochs: Range<usize>) -> Option<Vector3<f64>> {
+        let mut runs = 0.0;
+        let mut sum = Vector3::zeros();
+        for cell in self.cells.get(clip(epochs, self.cells.len())).unwrap_or_default() {
+            runs += f64::from(cell.runs);
+            sum += cell.sum_of_squares;
+        }
+        (runs > 0.0).then(|| (sum / runs).map(f64::sqrt))
+    }
+
     /// Median over epochs of estimated over sample sigma, for each axis alone; `None` without variances.
     pub fn ratio_by_axis(&self, epochs: Range<usize>) -> Option<[f64; 3]> {
         let ratios: Vec<Vector3<f64>> = self.over(epochs).filter_map(|m| m.ratio()).collect();
@@ -239,6 +250,8 @@ mod tests {
         // 4 > 3 sigma = 3 in the first run only.
         assert_eq!(m.inside_3_sigma, Some(Vector3::new(1.0, 1.0, 0.5)));
         assert_eq!(e.rmse(0..2), Some(17.0_f64.sqrt()));
+        let by_axis = Vector3::new(5.0_f64.sqrt(), 2.0, 8.0_f64.sqrt());
+        assert_eq!((e.rmse_by_axis(0..2), e.rmse_by_axis(1..2)), (Some(by_axis), None));
         assert!(e.at(1).is_none() && e.rmse(1..2).is_none() && e.ratio(1..2).is_none());
         // A range open at the end costs no more than the epochs there are.
         assert_eq!(e.over(0..usize::MAX).count(), 1);

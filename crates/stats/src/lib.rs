@@ -11,6 +11,7 @@ mod error;
 mod histogram;
 mod paired;
 mod scalar;
+mod spread;
 
 pub use consistency::{Bounds, mean_chi_square_bounds, nees};
 pub use ensemble::{Ensemble, EpochMoments, mean_error_in_sigmas};
@@ -18,3 +19,4 @@ pub use error::StatsError;
 pub use histogram::LogHistogram;
 pub use paired::{PairedDifference, paired_difference};
 pub use scalar::ScalarEnsemble;
+pub use spread::{rmse_standard_error, standard_error};

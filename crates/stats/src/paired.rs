@@ -1,6 +1,6 @@
 //! Comparison of two filters that met the same worlds.
 
-use crate::StatsError;
+use crate::{StatsError, standard_error};
 
 /// Mean over runs of a difference, with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,15 +31,11 @@ pub fn paired_difference(first: &[f64], second: &[f64]) -> Result<Option<PairedD
     if first.is_empty() {
         return Ok(None);
     }
-    let n = first.len() as f64;
-    let differences = || first.iter().zip(second).map(|(a, b)| a - b);
-    let mean = differences().sum::<f64>() / n;
-    let squares: f64 = differences().map(|d| (d - mean) * (d - mean)).sum();
-    let standard_error = (first.len() > 1).then(|| (squares / (n - 1.0) / n).sqrt());
+    let differences: Vec<f64> = first.iter().zip(second).map(|(a, b)| a - b).collect();
     Ok(Some(PairedDifference {
-        runs: first.len(),
-        mean,
-        standard_error,
+        runs: differences.len(),
+        mean: differences.iter().sum::<f64>() / differences.len() as f64,
+        standard_error: standard_error(&differences),
     }))
 }
 

@@ -199,6 +199,24 @@ pub(super) struct RawTool {
     pub(super) name: String,
     #[serde(rename = "Presets", default)]
     pub(super) presets: Vec<RawPresets>,
+    #[serde(rename = "Meaning", default)]
+    pub(super) meanings: Vec<RawMeanings>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct RawMeanings {
+    #[serde(rename = "Only", default)]
+    pub(super) only: Vec<RawOnly>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct RawOnly {
+    #[serde(rename = "@filter")]
+    pub(super) filter: Option<String>,
+    #[serde(rename = "@scenarios")]
+    pub(super) scenarios: Option<String>,
+    #[serde(rename = "@why", default)]
+    pub(super) why: String,
 }
 
 #[derive(Deserialize)]

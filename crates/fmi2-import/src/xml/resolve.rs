@@ -5,16 +5,16 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::raw::{
-    RawCoSimulation, RawDescription, RawInteger, RawReal, RawTypes, RawUnit, RawVariable, RawVendorAnnotations,
+    RawCoSimulation, RawDescription, RawInteger, RawOnly, RawPreset, RawReal, RawSet, RawTypes, RawUnit, RawVariable,
 };
 use crate::ImportError;
 use crate::description::{
     BaseUnit, Causality, CoSimulation, DefaultExperiment, DisplayUnit, EnumerationItem, EnumerationType, Initial,
-    LogCategory, ModelDescription, Preset, Unit, Variability, Variable, VariableKind,
+    LogCategory, Meaning, ModelDescription, Preset, Unit, Variability, Variable, VariableKind,
 };
 
-/// Name of the `<Tool>` whose vendor annotation carries presets.
-const PRESETS_TOOL: &str = "trade-harness";
+/// Name of the `<Tool>` whose vendor annotation tells of presets and meanings.
+const OUR_TOOL: &str = "trade-harness";
 
 /// Turns raw elements into the public types.
 pub(super) struct Resolver<'a> {
@@ -57,6 +57,15 @@ impl Resolver<'_> {
             variables.push(self.variable(variable, &types)?);
         }
 
+        let (mut presets, mut meanings) = (Vec::new(), Vec::new());
+        for tool in raw.vendor_annotations.tools.into_iter().filter(|t| t.name == OUR_TOOL) {
+            for preset in tool.presets.into_iter().flat_map(|list| list.presets) {
+                presets.push(self.preset(preset)?);
+            }
+            for only in tool.meanings.into_iter().flat_map(|list| list.only) {
+                meanings.push(self.meaning(only)?);
+            }
+        }
         Ok(ModelDescription {
             model_name: raw.model_name,
             guid: raw.guid,
@@ -87,7 +96,8 @@ impl Resolver<'_> {
                 })
                 .collect(),
             variables,
-            presets: self.presets(raw.vendor_annotations)?,
+            presets,
+            meanings,
             index,
         })
     }
@@ -170,33 +180,32 @@ impl Resolver<'_> {
         })
     }
 
-    fn presets(&self, raw: RawVendorAnnotations) -> Result<Vec<Preset>, ImportError> {
-        let needed = |text: Option<String>, what: &str| {
-            text.ok_or_else(|| self.invalid(format!("{PRESETS_TOOL} annotation: {what}")))
+    fn annotated(&self, text: Option<String>, missing: &str) -> Result<String, ImportError> {
+        text.ok_or_else(|| self.invalid(format!("{OUR_TOOL} annotation: {missing}")))
+    }
+
+    fn preset(&self, raw: RawPreset) -> Result<Preset, ImportError> {
+        let set = |set: RawSet| {
+            Ok((
+                self.annotated(set.variable, "a Set has no variable attribute")?,
+                self.annotated(set.value, "a Set has no value attribute")?,
+            ))
         };
-        raw.tools
-            .into_iter()
-            .filter(|tool| tool.name == PRESETS_TOOL)
-            .flat_map(|tool| tool.presets)
-            .flat_map(|list| list.presets)
-            .map(|preset| {
-                Ok(Preset {
-                    filter: needed(preset.filter, "a Preset has no filter attribute")?,
-                    name: needed(preset.name, "a Preset has no name attribute")?,
-                    about: preset.about,
-                    sets: preset
-                        .sets
-                        .into_iter()
-                        .map(|set| {
-                            Ok((
-                                needed(set.variable, "a Set has no variable attribute")?,
-                                needed(set.value, "a Set has no value attribute")?,
-                            ))
-                        })
-                        .collect::<Result<_, ImportError>>()?,
-                })
-            })
-            .collect()
+        Ok(Preset {
+            filter: self.annotated(raw.filter, "a Preset has no filter attribute")?,
+            name: self.annotated(raw.name, "a Preset has no name attribute")?,
+            about: raw.about,
+            sets: raw.sets.into_iter().map(set).collect::<Result<_, ImportError>>()?,
+        })
+    }
+
+    fn meaning(&self, raw: RawOnly) -> Result<Meaning, ImportError> {
+        let scenarios = self.annotated(raw.scenarios, "an Only has no scenarios attribute")?;
+        Ok(Meaning {
+            filter: self.annotated(raw.filter, "an Only has no filter attribute")?,
+            scenarios: scenarios.split(',').map(|name| name.trim().to_owned()).collect(),
+            why: raw.why,
+        })
     }
 }
 
