@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::models::{Assignment, FilterChoice, ForeignFilter, Mapping};
+use crate::models::{Assignment, FilterChoice, ForeignFilter, Mapping, Variation};
 use crate::pack;
 
 /// Compares navigation filters in simulated worlds; both are FMI 2.0 FMUs.
@@ -51,14 +51,9 @@ pub struct BuildArgs {
 /// Which worlds, which filters, which parameters.
 #[derive(Debug, Clone, Args)]
 pub struct StudyArgs {
-    /// Filters of fmu-nav, each with a preset if it is not 'paper'; empty for none
-    #[arg(
-        long,
-        value_name = "NAME[@PRESET],...",
-        value_delimiter = ',',
-        default_value = "fixed_q,fixed_q@small,milton,milton@consistent,constrained_q",
-        value_parser = optional_choice
-    )]
+    /// Filters of fmu-nav, each with a preset if it is not 'paper'; empty for none [default: those of the scenario, see
+    /// list]
+    #[arg(long, value_name = "NAME[@PRESET],...", value_delimiter = ',', value_parser = optional_choice)]
     pub filters: Vec<OptionalChoice>,
     /// Seed of the study; with the number of a run it selects every random stream
     #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_parser = clap::value_parser!(i32).range(0..))]
@@ -66,6 +61,9 @@ pub struct StudyArgs {
     /// Set a parameter of fmu-truth, fmu-nav or a foreign filter; after the preset, repeatable
     #[arg(long = "set", value_name = "MODEL.VARIABLE=VALUE")]
     pub assignments: Vec<Assignment>,
+    /// Draw a Real parameter anew in each run, the same for all filters; uniform or loguniform, repeatable
+    #[arg(long = "vary", value_name = "MODEL.VARIABLE=uniform:LOW:HIGH")]
+    pub variations: Vec<Variation>,
     /// Communication step, s [default: the truth's sample period]
     #[arg(long, value_name = "H")]
     pub step: Option<f64>,
@@ -162,7 +160,7 @@ pub struct CompareArgs {
     #[arg(long, value_name = "NAME", default_value = "nominal", value_parser = case_name)]
     pub case: String,
     /// End with exit code 1 when the scenario as published misses one of its bounds
-    #[arg(long, conflicts_with_all = ["assignments", "truth"])]
+    #[arg(long, conflicts_with_all = ["assignments", "variations", "truth"])]
     pub check: bool,
     /// Which filters, which parameters.
     #[command(flatten)]
@@ -225,23 +223,7 @@ mod tests {
     #[test]
     fn defaults_are_those_of_the_manual() {
         let args = compare(&[]).unwrap();
-        let labels: Vec<_> = args
-            .study
-            .filters
-            .iter()
-            .filter_map(|f| f.0.as_ref())
-            .map(|f| f.label.as_str())
-            .collect();
-        assert_eq!(
-            labels,
-            [
-                "fixed_q",
-                "fixed_q@small",
-                "milton",
-                "milton@consistent",
-                "constrained_q"
-            ]
-        );
+        assert!(args.study.filters.is_empty() && args.study.variations.is_empty());
         assert_eq!((args.runs, args.study.seed, args.case.as_str()), (100, 1, "nominal"));
         assert_eq!(args.scenarios, ["leo_venting"]);
         assert_eq!(args.out, PathBuf::from("results/compare"));
@@ -259,7 +241,9 @@ mod tests {
         assert_eq!(args.study.foreign[0].label, "other");
         assert_eq!(args.study.mappings[0].own, "y");
         let none = compare(&["--filters", "", "--nav", "other=p.fmu"]).unwrap();
-        assert!(none.study.filters.iter().all(|f| f.0.is_none()));
+        assert_eq!(none.study.filters, [OptionalChoice(None)]);
+        let varied = compare(&["--vary", "fmu-nav.k=uniform:0.1:10", "--vary", "x.y=loguniform:1:2"]).unwrap();
+        assert_eq!(varied.study.variations.len(), 2);
     }
 
     #[test]
@@ -278,6 +262,9 @@ mod tests {
             (&["--case", "a/b"], "letters"),
             (&["--steps", "1"], "--step"),
             (&["--check", "--set", "fmu-truth.vent.scale=0"], "--check"),
+            (&["--check", "--vary", "fmu-truth.vent.scale=uniform:0:1"], "--check"),
+            (&["--vary", "fmu-truth.vent.scale=uniform:2:1"], "2 to 1 is empty"),
+            (&["--vary", "fmu-truth.vent.scale"], "uniform:LOW:HIGH"),
         ] {
             let error = compare(arguments).unwrap_err();
             assert!(error.contains(expected), "{arguments:?}: {error}");

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use cosim::CosimError;
+use cosim::{BaseType, CosimError};
 use fmi2_import::{Causality, ImportError};
 use stats::StatsError;
 use thiserror::Error;
@@ -57,7 +57,7 @@ pub enum HarnessError {
         known: String,
     },
     /// `--set` of something another option governs.
-    #[error("{model}.{variable} cannot be set with --set; use {option}")]
+    #[error("{model}.{variable} cannot be set or varied; use {option}")]
     Reserved {
         /// Model.
         model: String,
@@ -74,8 +74,8 @@ pub enum HarnessError {
         /// Variable, value, and what would be allowed.
         source: Box<ImportError>,
     },
-    /// `--set` of something that is no parameter.
-    #[error("{model}.{variable} has causality '{causality}'; --set takes parameters only")]
+    /// `--set` or `--vary` of something that is no parameter.
+    #[error("{model}.{variable} has causality '{causality}'; --set and --vary take parameters only")]
     NotAParameter {
         /// Model.
         model: String,
@@ -83,6 +83,34 @@ pub enum HarnessError {
         variable: String,
         /// What it is.
         causality: Causality,
+    },
+    /// `--vary` of a parameter that is no number.
+    #[error("{model}.{variable} has type '{found}'; --vary takes Real parameters only")]
+    NotReal {
+        /// Model.
+        model: String,
+        /// Variable.
+        variable: String,
+        /// Its type.
+        found: BaseType,
+    },
+    /// A parameter would be given two values.
+    #[error("{model}.{variable} is varied twice, or set as well; give one --vary or one --set for it")]
+    VariedTwice {
+        /// Model.
+        model: String,
+        /// Variable.
+        variable: String,
+    },
+    /// A filter that cannot do anything sensible in a world.
+    #[error("filter '{filter}' has no meaning in scenario '{scenario}': {why}; leave it out there")]
+    NoMeaning {
+        /// The filter, with its preset.
+        filter: String,
+        /// The scenario.
+        scenario: String,
+        /// Why.
+        why: String,
     },
     /// Two rows of the results would have the same name.
     #[error("filter '{label}' stands in the study twice (or is the name of the truth); give each a label of its own")]

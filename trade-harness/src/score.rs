@@ -17,18 +17,24 @@ pub enum Quantity {
     Acceleration,
     /// Accelerometer bias in chaser body axes, m/s2.
     Bias,
-    /// Innovation of the filter, measured minus predicted.
+    /// First three rows of the filter's innovation, measured minus predicted.
     Residual,
+    /// The next three, where the measurement has six.
+    ResidualRate,
 }
+
+/// Number of quantities.
+pub const QUANTITIES: usize = Quantity::ALL.len();
 
 impl Quantity {
     /// All of them, in the order of [`Score::errors`].
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Position,
         Self::Velocity,
         Self::Acceleration,
         Self::Bias,
         Self::Residual,
+        Self::ResidualRate,
     ];
 }
 
@@ -38,9 +44,11 @@ pub struct Score {
     /// Index of the epoch, from 0: one less than the ordinal of the sample.
     pub epoch: usize,
     /// Estimate minus truth by [`Quantity`]; the innovation as it is.
-    pub errors: [Option<Vector3<f64>>; 5],
+    pub errors: [Option<Vector3<f64>>; QUANTITIES],
     /// Variances the filter claims, same axes.
-    pub variances: [Option<Vector3<f64>>; 5],
+    pub variances: [Option<Vector3<f64>>; QUANTITIES],
+    /// True acceleration in the axes of the results, m/s2: the error of an estimate of zero.
+    pub true_acceleration: Option<Vector3<f64>>,
     /// NEES divided by its dimension.
     pub nees: Option<f64>,
     /// Number of states of the NEES.
@@ -80,7 +88,8 @@ pub fn score(scenario: &Scenario, truth: &TruthSample, estimate: &Estimate) -> O
     };
     let measured = truth.measured && !matches!(estimate.status, Some(Status::Coasting | Status::Initialising));
     let finite = |v: Vector3<f64>| v.iter().all(|x| x.is_finite()).then_some(v);
-    let residual = estimate.residual.filter(|_| measured).and_then(finite);
+    let residual = estimate.residual.map(|r| r.filter(|_| measured).and_then(finite));
+    let residual_variance = |i: usize| residual[i].and(estimate.residual_variance[i]).and_then(finite);
 
     let position_variance = turned_variance(0);
     let lost = position.norm() > LOST_BEYOND
@@ -92,15 +101,18 @@ pub fn score(scenario: &Scenario, truth: &TruthSample, estimate: &Estimate) -> O
             Some(axes * velocity),
             acceleration.map(|a| axes * a),
             bias,
-            residual,
+            residual[0],
+            residual[1],
         ],
         variances: [
             position_variance,
             turned_variance(1),
             turned_variance(2).filter(|_| acceleration.is_some()),
             estimate.bias_sigma.map(|s| s.component_mul(&s)).and_then(finite),
-            residual.and(estimate.residual_variance).and_then(finite),
+            residual_variance(0),
+            residual_variance(1),
         ],
+        true_acceleration: truth.acceleration.map(|a| axes * a),
         nees: normalised,
         dimension: estimate.dimension,
         covariance_broken,
@@ -144,7 +156,7 @@ mod tests {
             count: 7,
             time: 7.0,
             position: Vector3::new(10.0, 0.0, 0.0),
-            acceleration: Some(Vector3::zeros()),
+            acceleration: Some(Vector3::new(0.0, 3e-6, 0.0)),
             bias: Some(Vector3::zeros()),
             // R = -z, N = x, T = N x R = y.
             chaser: Some((Vector3::new(-10.0, 0.0, -7e6), Vector3::new(0.0, 7e3, 0.0))),
@@ -157,15 +169,15 @@ mod tests {
         Estimate {
             position: Vector3::new(11.0, 2.0, 3.0),
             velocity: Vector3::zeros(),
-            acceleration: Some(Vector3::zeros()),
+            acceleration: Some(Vector3::new(0.0, 3e-6, 0.0)),
             bias: Some(Vector3::new(1e-6, 0.0, 0.0)),
             covariance: Some(SMatrix::from_diagonal(&SVector::<f64, 9>::from_fn(|i, _| {
                 (i + 1) as f64
             }))),
             dimension: 9,
             bias_sigma: Some(Vector3::repeat(2e-6)),
-            residual: Some(Vector3::repeat(0.5)),
-            residual_variance: Some(Vector3::repeat(0.25)),
+            residual: [Some(Vector3::repeat(0.5)), None],
+            residual_variance: [Some(Vector3::repeat(0.25)), None],
             nis: Some(6.0),
             jerk_root: None,
             status: Some(Status::Tracking),
@@ -179,6 +191,7 @@ mod tests {
         assert_eq!(s.errors[0], Some(Vector3::new(-3.0, 2.0, 1.0)));
         assert_eq!(s.variances[0], Some(Vector3::new(3.0, 2.0, 1.0)));
         assert_eq!(s.errors[3], Some(Vector3::new(1e-6, 0.0, 0.0)));
+        assert_eq!(s.true_acceleration, Some(Vector3::new(0.0, 3e-6, 0.0)));
         // 1/1 + 4/2 + 9/3 over nine states.
         assert!((s.nees.unwrap() - 6.0 / 9.0).abs() < 1e-15);
         assert_eq!(s.nis, Some(2.0));
@@ -215,15 +228,23 @@ mod tests {
         let s = score(&SCENARIOS[0], &truth(), &six).unwrap();
         assert_eq!((s.errors[2], s.variances[2]), (None, None));
         assert!((s.nees.unwrap() - 1.0).abs() < 1e-15);
+        // Six states with a covariance, and an acceleration without one.
+        let network = Estimate {
+            dimension: 6,
+            ..estimate()
+        };
+        let s = score(&SCENARIOS[0], &truth(), &network).unwrap();
+        assert_eq!((s.errors[2], s.variances[2]), (Some(Vector3::zeros()), None));
+        assert!((s.nees.unwrap() - 1.0).abs() < 1e-15);
         let none = Estimate {
             covariance: None,
             bias_sigma: None,
             nis: None,
-            residual_variance: None,
+            residual_variance: [None; 2],
             ..estimate()
         };
         let s = score(&SCENARIOS[0], &truth(), &none).unwrap();
-        assert_eq!(s.variances, [None; 5]);
+        assert_eq!(s.variances, [None; QUANTITIES]);
         assert_eq!((s.nees, s.nis, s.covariance_broken), (None, None, false));
     }
 

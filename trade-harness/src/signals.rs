@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use crate::HarnessError;
 use crate::models::Participant;
-use crate::scenarios::{Scenario, Signal};
+use crate::scenarios::{Residual, Scenario, Signal};
 
 /// True state at the epoch of one sensor sample, in the axes of the truth's variables, SI.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -45,10 +45,10 @@ pub struct Estimate {
     pub dimension: usize,
     /// Standard deviation of the bias, m/s2.
     pub bias_sigma: Option<Vector3<f64>>,
-    /// Innovation.
-    pub residual: Option<Vector3<f64>>,
+    /// Innovation, three rows at a time.
+    pub residual: [Option<Vector3<f64>>; 2],
     /// Variance of the innovation as predicted.
-    pub residual_variance: Option<Vector3<f64>>,
+    pub residual_variance: [Option<Vector3<f64>>; 2],
     /// Normalised innovation squared, not divided by its rows.
     pub nis: Option<f64>,
     /// Root of the jerk density, m/s^2.5.
@@ -269,11 +269,12 @@ pub(crate) struct EstimateReader {
     position: usize,
     velocity: usize,
     acceleration: Option<usize>,
+    acceleration_valid: Option<usize>,
     bias: Option<usize>,
     covariance: Option<usize>,
     bias_sigma: Option<usize>,
-    residual: Option<usize>,
-    residual_variance: Option<usize>,
+    residual: [Option<usize>; 2],
+    residual_variance: [Option<usize>; 2],
     nis: Option<usize>,
     jerk_root: Option<usize>,
 }
@@ -301,12 +302,20 @@ impl EstimateReader {
         let square: Vec<String> = (1..=9)
             .flat_map(|i| (1..=9).map(move |j| format!("cov.p[{i},{j}]")))
             .collect();
-        let residual: Vec<String> = signals.residual.iter().map(|(name, _)| (*name).to_owned()).collect();
+        let mut rows = |names: &dyn Fn(usize, &Residual) -> Vec<String>| {
+            std::array::from_fn(|i| {
+                let residual = signals.residual[i].as_ref()?;
+                body.reals(offered, &names(i, residual))
+            })
+        };
+        let residual = rows(&|_, residual| residual.names.map(str::to_owned).to_vec());
+        let residual_variance = rows(&|i, _| elements("innov.s", 3 * i + 1..=3 * i + 3));
         Ok(Self {
             tag,
             position,
             velocity,
             acceleration: body.vector(offered, signals.acceleration.estimate),
+            acceleration_valid: body.boolean(offered, "est.acceleration_valid"),
             bias: signals
                 .bias
                 .as_ref()
@@ -316,8 +325,8 @@ impl EstimateReader {
                 .bias
                 .as_ref()
                 .and_then(|_| body.reals(offered, &elements("cov.sigma", 16..=18))),
-            residual: body.reals(offered, &residual),
-            residual_variance: body.vector(offered, "innov.s"),
+            residual,
+            residual_variance,
             nis: body.real(offered, "nis"),
             jerk_root: body.vector(offered, "q.s"),
             head: head.probe(offered)?,
@@ -347,15 +356,14 @@ impl EstimateReader {
         let dimension = tag
             .dimension
             .map_or(offered, |d| usize::try_from(d).unwrap_or(0).min(9));
+        // Unless it says so itself, a filter of six states that shows an acceleration has none: it shows zeros.
+        let estimates_acceleration = self
+            .acceleration_valid
+            .map_or(dimension != 6, |at| self.body.booleans()[at]);
         Some(Estimate {
             position: vector_at(x, self.position),
             velocity: vector_at(x, self.velocity),
-            // A filter of six states shows zeros under the name of the acceleration: they are no estimate.
-            acceleration: if dimension == 6 {
-                None
-            } else {
-                vector(self.acceleration)
-            },
+            acceleration: vector(self.acceleration).filter(|_| estimates_acceleration),
             bias: vector(self.bias),
             covariance: self
                 .covariance
@@ -363,8 +371,8 @@ impl EstimateReader {
                 .map(|at| SMatrix::from_row_slice(&x[at..at + 81])),
             dimension,
             bias_sigma: vector(self.bias_sigma),
-            residual: vector(self.residual),
-            residual_variance: vector(self.residual_variance),
+            residual: self.residual.map(vector),
+            residual_variance: self.residual_variance.map(vector),
             nis: self.nis.map(|at| x[at]),
             jerk_root: vector(self.jerk_root),
             status: tag.status,

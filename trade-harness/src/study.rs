@@ -8,7 +8,7 @@ use stats::{Ensemble, ScalarEnsemble};
 use crate::HarnessError;
 use crate::ordered::in_order;
 use crate::run::{Ending, Failure, RunReport, SlaveTime, Spec, run_once};
-use crate::score::{Quantity, Score, score};
+use crate::score::{QUANTITIES, Quantity, Score, score};
 
 /// A Monte Carlo study of one scenario.
 #[derive(Debug)]
@@ -30,8 +30,14 @@ pub struct RunRow {
     pub run: u32,
     /// Root mean square over time of the norm of the position, velocity and acceleration error.
     pub rmse: [Option<f64>; 3],
+    /// Mean over time of the squares of those errors on each axis of the results.
+    pub mean_squares: [Option<Vector3<f64>>; 3],
+    /// The same of the true acceleration: what an estimate of zero would make of this run.
+    pub true_acceleration_mean_square: Option<Vector3<f64>>,
     /// Mean over time of the NEES divided by its dimension.
     pub nees: Option<f64>,
+    /// Mean over time of the NIS divided by its rows.
+    pub nis: Option<f64>,
     /// The filter or the distance to the truth said so.
     pub diverged: bool,
     /// Set when the run has no result; then it takes no part in the statistics.
@@ -57,7 +63,7 @@ pub struct FilterResult {
     /// Each run, in order.
     pub runs: Vec<RunRow>,
     /// Errors by [`Quantity`], over the runs that did not fail.
-    pub ensembles: [Ensemble; 5],
+    pub ensembles: [Ensemble; QUANTITIES],
     /// NEES divided by its dimension.
     pub nees: ScalarEnsemble,
     /// NIS divided by its rows.
@@ -207,6 +213,9 @@ fn row(run: u32, scores: &[Score], first_scored: usize, ending: &Ending) -> RunR
         let squares = scored().filter_map(|s| s.errors[q as usize].as_ref().map(Vector3::norm_squared));
         mean(squares).map(f64::sqrt)
     };
+    let mean_square =
+        |of: &dyn Fn(&Score) -> Option<Vector3<f64>>| mean_vector(scored().filter_map(of).map(|v| v.component_mul(&v)));
+    let of_error = |q: Quantity| mean_square(&|s| s.errors[q as usize]);
     RunRow {
         run,
         rmse: [
@@ -214,7 +223,14 @@ fn row(run: u32, scores: &[Score], first_scored: usize, ending: &Ending) -> RunR
             rmse(Quantity::Velocity),
             rmse(Quantity::Acceleration),
         ],
+        mean_squares: [
+            of_error(Quantity::Position),
+            of_error(Quantity::Velocity),
+            of_error(Quantity::Acceleration),
+        ],
+        true_acceleration_mean_square: mean_square(&|s| s.true_acceleration),
         nees: mean(scored().filter_map(|s| s.nees)),
+        nis: mean(scored().filter_map(|s| s.nis)),
         diverged: !failed && (ending.says_diverged || scored().any(|s| s.lost)),
         failure: ending.failure.clone(),
     }
@@ -222,6 +238,12 @@ fn row(run: u32, scores: &[Score], first_scored: usize, ending: &Ending) -> RunR
 
 fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     let (n, sum) = values.fold((0.0, 0.0), |(n, sum), v| (n + 1.0, sum + v));
+    (n > 0.0).then(|| sum / n)
+}
+
+/// Mean of vectors; `None` without any.
+pub(crate) fn mean_vector(values: impl Iterator<Item = Vector3<f64>>) -> Option<Vector3<f64>> {
+    let (n, sum) = values.fold((0.0, Vector3::zeros()), |(n, sum), v| (n + 1.0, sum + v));
     (n > 0.0).then(|| sum / n)
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use cosim::Value;
 use trade_harness::HarnessError;
-use trade_harness::models::{Assignment, FilterChoice, ForeignFilter, Mapping, Models, Participant};
+use trade_harness::models::{Assignment, FilterChoice, ForeignFilter, Mapping, Models, Participant, Variation};
 use trade_harness::scenarios::SCENARIOS;
 
 const TRUTH: &str = r#"
@@ -23,7 +23,7 @@ const NAV: &str = r#"
     <ScalarVariable name="milton.whiten" valueReference="3" causality="parameter" variability="fixed"><Boolean start="false"/></ScalarVariable>"#;
 
 const FOREIGN: &str = r#"
-    <ScalarVariable name="gain" valueReference="0" causality="parameter" variability="fixed"><Real start="1"/></ScalarVariable>
+    <ScalarVariable name="gain" valueReference="0" causality="parameter" variability="fixed"><Real start="1" min="0"/></ScalarVariable>
     <ScalarVariable name="x_hat[1]" valueReference="1" causality="output"><Real/></ScalarVariable>
     <ScalarVariable name="x_hat[2]" valueReference="2" causality="output"><Real/></ScalarVariable>
     <ScalarVariable name="x_hatch" valueReference="3" causality="output"><Real/></ScalarVariable>"#;
@@ -35,11 +35,11 @@ fn write_fmu(folder: &Path, name: &str, variables: &str) -> PathBuf {
   <CoSimulation modelIdentifier="m"/>
   <TypeDefinitions>
     <SimpleType name="Scenario"><Enumeration><Item name="leo_venting" value="1"/></Enumeration></SimpleType>
-    <SimpleType name="Filter"><Enumeration><Item name="fixed_q" value="1"/><Item name="milton" value="2"/></Enumeration></SimpleType>
+    <SimpleType name="Filter"><Enumeration><Item name="fixed_q" value="1"/><Item name="milton" value="2"/><Item name="observer" value="3"/></Enumeration></SimpleType>
   </TypeDefinitions>
   <VendorAnnotations><Tool name="trade-harness"><Presets>
     <Preset filter="milton" name="short" about="a short buffer"><Set variable="milton.m_b" value="5"/><Set variable="milton.whiten" value="true"/></Preset>
-  </Presets></Tool></VendorAnnotations>
+  </Presets><Meaning><Only filter="observer" scenarios="formation" why="it needs the state measured in full"/></Meaning></Tool></VendorAnnotations>
   <ModelVariables>{variables}</ModelVariables>
   <ModelStructure/>
 </fmiModelDescription>"#
@@ -117,7 +117,7 @@ fn what_does_not_exist_or_fit_is_told() {
         assert!(parts.iter().all(|p| text.contains(p)), "{text}");
         error
     };
-    let e = known(refused(&["milto"], &[], &[]), &["milto", "fixed_q, milton"]);
+    let e = known(refused(&["milto"], &[], &[]), &["milto", "fixed_q, milton, observer"]);
     assert!(matches!(e, HarnessError::UnknownFilter { .. }));
     let e = known(refused(&["milton@long"], &[], &[]), &["long", "paper, short"]);
     assert!(matches!(e, HarnessError::UnknownPreset { .. }));
@@ -154,8 +154,61 @@ fn what_does_not_exist_or_fit_is_told() {
         &["sample_count", "output"],
     );
     assert!(matches!(e, HarnessError::NotAParameter { .. }));
+    let e = known(
+        refused(&["observer"], &[], &[]),
+        &["observer", "leo_venting", "measured in full"],
+    );
+    assert!(matches!(e, HarnessError::NoMeaning { .. }));
     let e = known(refused(&["milton", "milton"], &[], &[]), &["milton", "twice"]);
     assert!(matches!(e, HarnessError::LabelTwice { .. }));
+}
+
+/// Resolves a study of `fixed_q`, `milton@short` and `other` with these variations.
+fn vary(sets: &[&str], variations: &[&str]) -> Result<(Participant, Vec<Participant>), HarnessError> {
+    let (models, mut truth, mut filters) = cast(&["fixed_q", "milton@short"], sets, &["other.gain=our.gain"]).unwrap();
+    let sets: Vec<Assignment> = sets.iter().map(|s| s.parse().unwrap()).collect();
+    let variations: Vec<Variation> = variations.iter().map(|v| v.parse().unwrap()).collect();
+    models.vary(&mut truth, &mut filters, &variations, &sets)?;
+    Ok((truth, filters))
+}
+
+#[test]
+fn variations_reach_every_part_of_their_model() {
+    let given = ["fmu-truth.sample_period=uniform:1:2", "other.gain=loguniform:0.1:10"];
+    let (truth, filters) = vary(&[], &given).unwrap();
+    assert_eq!(
+        (truth.varied[0].name.as_str(), truth.varied[0].draw),
+        ("sample_period", 0)
+    );
+    assert!(filters[0].varied.is_empty() && filters[1].varied.is_empty());
+    // Under the name it is mapped to, and as it stands in the FMU in the record.
+    assert_eq!(
+        (filters[2].varied[0].name.as_str(), filters[2].varied[0].draw),
+        ("our.gain", 1)
+    );
+    let record = ("gain".to_owned(), "loguniform:0.1:10".to_owned());
+    assert!(filters[2].record.contains(&record));
+}
+
+#[test]
+fn what_cannot_be_varied_is_told() {
+    for (sets, variations, says) in [
+        (&[][..], &["nobody.k=uniform:0:1"][..], "nobody"),
+        (&[], &["other.gian=uniform:0:1"], "gain"),
+        (&[], &["fmu-nav.milton.m_b=uniform:1:9"], "Integer"),
+        (&[], &["fmu-truth.run=uniform:0:1"], "--run"),
+        (&[], &["other.x_hat[1]=uniform:0:1"], "output"),
+        (&[], &["other.gain=uniform:-1:1"], "-1"),
+        (&["other.gain=2"], &["other.gain=uniform:0:1"], "set as well"),
+        (
+            &[],
+            &["other.gain=uniform:0:1", "other.gain=uniform:0:2"],
+            "varied twice",
+        ),
+    ] {
+        let error = vary(sets, variations).err().unwrap().to_string();
+        assert!(error.contains(says), "{variations:?}: {error}");
+    }
 }
 
 #[test]

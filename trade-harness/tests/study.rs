@@ -4,8 +4,9 @@
 mod mocks;
 
 use cosim::Scheme;
-use mocks::{Quirk, SIGMA, noise, spec};
+use mocks::{Quirk, SIGMA, acceleration, noise, spec};
 use trade_harness::HarnessError;
+use trade_harness::models::{Distribution, Varied};
 use trade_harness::report::epochs;
 use trade_harness::report::runs::{Named, render_failures, render_paired, render_runs};
 use trade_harness::report::summary::{self, SummaryRow};
@@ -88,6 +89,90 @@ fn statistics_are_those_of_the_known_errors() {
         (row.acc_rmse_m_s2, row.ratio_acc, row.nees_dimension),
         (None, None, Some(6))
     );
+}
+
+/// Mean squares of the known errors of each run on each axis, over the scored samples that `counts` keeps.
+fn mean_squares(counts: impl Fn(&i32) -> bool) -> Vec<[f64; 3]> {
+    let of = |run: i32| {
+        [0, 1, 2].map(|axis| {
+            let squares: Vec<f64> = (11..=40)
+                .filter(&counts)
+                .map(|count| noise(run, count, axis).powi(2))
+                .collect();
+            squares.iter().sum::<f64>() / squares.len() as f64
+        })
+    };
+    (0..RUNS).map(of).collect()
+}
+
+/// Mean and standard error over the runs, by the textbook.
+fn spread(values: &[f64]) -> (f64, f64) {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let variance = values.iter().map(|v| v * v).sum::<f64>() / n - mean * mean;
+    (mean, (variance / (n - 1.0)).sqrt())
+}
+
+#[test]
+fn standard_errors_and_axes_are_those_of_the_known_errors() {
+    let (_, filters) = study(spec(Quirk::None, &[("good", Quirk::None)]), 2);
+    let row = row(&filters[0]);
+    let runs = mean_squares(|_| true);
+    let of_axis = |axis: usize| runs.iter().map(|r| r[axis]).collect::<Vec<_>>();
+    for (axis, value) in [row.pos_rmse_r_m, row.pos_rmse_t_m, row.pos_rmse_n_m]
+        .into_iter()
+        .enumerate()
+    {
+        near(value, spread(&of_axis(axis)).0.sqrt());
+    }
+    near(row.vel_rmse_t_m_s, spread(&of_axis(1)).0.sqrt());
+    let (mean, error) = spread(&runs.iter().map(|r| r.iter().sum()).collect::<Vec<f64>>());
+    near(row.pos_rmse_se_m, error / (2.0 * mean.sqrt()));
+    near(row.vel_rmse_se_m_s, error / (2.0 * mean.sqrt()));
+    // Position and velocity errors alike over six states: two thirds of a squared error over three sigmas squared.
+    near(row.nees_se, 2.0 * error / (SIGMA * SIGMA) / 6.0);
+    assert_eq!((row.nis_se, row.acc_rmse_se_m_s2), (Some(0.0), None));
+    near(row.acc_rmse_of_zero_t_m_s2, acceleration(1));
+    near(row.acc_rmse_of_zero_m_s2, 1e-5 * 14.0_f64.sqrt());
+}
+
+#[test]
+fn an_acceleration_beside_six_states_is_scored_where_the_filter_says_so() {
+    let (_, filters) = study(spec(Quirk::None, &[("net", Quirk::EstimatesAcceleration)]), 1);
+    let row = row(&filters[0]);
+    let runs = mean_squares(|count| count % 2 == 1);
+    let of_axis = |axis: usize| spread(&runs.iter().map(|r| r[axis]).collect::<Vec<_>>());
+    near(row.acc_rmse_n_m_s2, 1e-6 * of_axis(2).0.sqrt());
+    near(
+        row.acc_rmse_se_r_m_s2,
+        1e-6 * of_axis(0).1 / (2.0 * of_axis(0).0.sqrt()),
+    );
+    assert_eq!((row.ratio_acc, row.nees_dimension), (None, Some(6)));
+    near(row.nees, 2.0 * rms_norm(0..RUNS).powi(2) / (SIGMA * SIGMA) / 6.0);
+}
+
+#[test]
+fn a_varied_parameter_is_one_draw_for_each_run_and_all_filters() {
+    let varied = Varied {
+        name: "factor".to_owned(),
+        distribution: Distribution::Uniform(0.5, 2.0),
+        draw: 0,
+    };
+    let mut s = spec(Quirk::None, &[("one", Quirk::Scaled), ("two", Quirk::Scaled)]);
+    for filter in &mut s.filters {
+        filter.varied.push(varied.clone());
+    }
+    let (s, filters) = study(s, 2);
+    let mut factors = Vec::new();
+    for run in 0..RUNS {
+        let found = filters[0].runs[run as usize].rmse[0].unwrap();
+        let factor = found / rms_norm(run..run + 1);
+        assert!((factor / varied.value(s.seed, run as u32) - 1.0).abs() < 1e-9);
+        assert!((0.5..2.0).contains(&factor) && filters[1].runs[run as usize].rmse[0] == Some(found));
+        factors.push(factor.to_bits());
+    }
+    factors.dedup();
+    assert_eq!(factors.len(), RUNS as usize);
 }
 
 #[test]

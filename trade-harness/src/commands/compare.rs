@@ -177,7 +177,8 @@ impl<'a> Report<'a> {
 
     fn print(&self, args: &CompareArgs, files: &[PathBuf], out: &mut dyn Write) -> Result<Verdict, HarnessError> {
         // What a source claims is claimed of its own world, not of a changed one.
-        let as_published = args.study.assignments.is_empty() && args.study.truth.is_none();
+        let as_published =
+            args.study.assignments.is_empty() && args.study.variations.is_empty() && args.study.truth.is_none();
         let mut missed = false;
         for (study, result) in self.studies.iter().zip(self.results) {
             let scenario = study.spec.scenario;

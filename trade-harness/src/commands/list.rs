@@ -52,6 +52,7 @@ fn scenarios() -> String {
             "    {} s, scored from {} s; {}\n",
             s.duration, s.scored_from, s.reference
         ));
+        text.push_str(&format!("    filters: {}\n", s.filters.join(",")));
         for b in s.bounds {
             text.push_str(&format!("    {} {} {}: {}\n", b.filter, b.column, b.range(), b.claim));
         }
@@ -80,6 +81,9 @@ fn describe_filter(nav: &ModelDescription, filter: &str) -> String {
         "Filter {filter}{}\n",
         about.map(|a| format!(": {a}")).unwrap_or_default()
     );
+    for only in nav.meanings.iter().filter(|m| m.filter == filter) {
+        text.push_str(&format!("  only in {}: {}\n", only.scenarios.join(", "), only.why));
+    }
     if !nav.presets.iter().any(|p| p.filter == filter && p.name == PAPER) {
         text.push_str(&format!("  {filter} = {filter}@{PAPER}: start values as below\n"));
     }

@@ -76,18 +76,26 @@ fn own_fmus(args: &BuildArgs, needed: &[&str]) -> Result<Vec<PathBuf>, HarnessEr
     needed.iter().map(existing).collect()
 }
 
-/// The FMUs and filters that a study names.
+/// The FMUs that a study names.
 struct Cast {
     models: Models,
-    choices: Vec<FilterChoice>,
+}
+
+/// Filters of fmu-nav to run in a scenario: those asked for, else the scenario's own.
+fn choices(args: &StudyArgs, scenario: &Scenario) -> Vec<FilterChoice> {
+    if args.filters.is_empty() {
+        scenario.filters.iter().filter_map(|text| text.parse().ok()).collect()
+    } else {
+        args.filters.iter().filter_map(|f| f.0.clone()).collect()
+    }
 }
 
 impl Cast {
     fn new(args: &StudyArgs) -> Result<Self, HarnessError> {
-        let choices: Vec<FilterChoice> = args.filters.iter().filter_map(|f| f.0.clone()).collect();
+        let needs_nav = args.filters.is_empty() || args.filters.iter().any(|f| f.0.is_some());
         let mut needed = Vec::new();
         needed.extend(args.truth.is_none().then_some(TRUTH));
-        needed.extend((!choices.is_empty()).then_some(NAV));
+        needed.extend(needs_nav.then_some(NAV));
         let own = own_fmus(&args.build, &needed)?;
         let path_of = |name: &str| needed.iter().position(|n| *n == name).map(|i| own[i].as_path());
         let truth = args
@@ -96,12 +104,15 @@ impl Cast {
             .or_else(|| path_of(TRUTH))
             .unwrap_or(Path::new(TRUTH));
         let models = Models::open(truth, path_of(NAV), &args.foreign, &args.mappings)?;
-        Ok(Self { models, choices })
+        Ok(Self { models })
     }
 
     /// What the runs of one scenario share.
     fn spec(&self, args: &StudyArgs, scenario: &'static Scenario) -> Result<Spec, HarnessError> {
-        let (truth, filters) = self.models.cast(scenario, &self.choices, &args.assignments)?;
+        let choices = choices(args, scenario);
+        let (mut truth, mut filters) = self.models.cast(scenario, &choices, &args.assignments)?;
+        self.models
+            .vary(&mut truth, &mut filters, &args.variations, &args.assignments)?;
         let suggested = self.models.truth.fmu.description().default_experiment.step_size;
         // A foreign truth may keep its sample period to itself; then it is taken to sample at each step.
         let sample_period = self

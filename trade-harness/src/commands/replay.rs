@@ -11,7 +11,7 @@ use crate::output::{prepare_file, write_whole};
 use crate::report::cell;
 use crate::run::{rehearse, run_once};
 use crate::scenarios::{self, Scenario};
-use crate::score::{Score, score};
+use crate::score::{Quantity, Score, score};
 use crate::signals::{Estimate, TruthSample};
 
 pub(super) fn replay(args: &ReplayArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
@@ -24,7 +24,7 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut dyn Write) -> Result<Verdict, 
     let report = run_once(&spec, args.run, |filter, truth, estimate| {
         let score = score(scenario, truth, estimate)
             .ok_or_else(|| format!("the axes of the results are undefined at {} s", truth.time))?;
-        lines[filter].push(line(&spec.filters[filter].label, truth, estimate, &score));
+        lines[filter].push(line(scenario, &spec.filters[filter].label, truth, estimate, &score));
         Ok(())
     });
 
@@ -73,19 +73,17 @@ fn header(scenario: &Scenario) -> Vec<String> {
             names.extend(axes.map(|axis| format!("{kind}_{quantity}_{axis}_{unit}")));
         }
     }
-    for kind in ["", "_sigma"] {
-        names.extend(
-            scenario
-                .signals
-                .residual
-                .map(|(name, unit)| format!("{}{kind}_{unit}", name.replace('.', "_"))),
-        );
+    for residual in scenario.signals.residual.iter().flatten() {
+        for kind in ["", "_sigma"] {
+            let columns = residual.columns().into_iter().zip(residual.units);
+            names.extend(columns.map(|(name, unit)| format!("{name}{kind}_{unit}")));
+        }
     }
     names.extend(["nees", "nis", "q_s_1", "q_s_2", "q_s_3"].map(str::to_owned));
     names
 }
 
-fn line(label: &str, truth: &TruthSample, estimate: &Estimate, score: &Score) -> Vec<String> {
+fn line(scenario: &Scenario, label: &str, truth: &TruthSample, estimate: &Estimate, score: &Score) -> Vec<String> {
     let mut cells = vec![
         label.to_owned(),
         truth.count.to_string(),
@@ -110,8 +108,15 @@ fn line(label: &str, truth: &TruthSample, estimate: &Estimate, score: &Score) ->
         push(score.errors[index]);
         push(sigma(index));
     }
-    push(score.errors[4]);
-    push(sigma(4));
+    let residuals = [Quantity::Residual, Quantity::ResidualRate];
+    for (quantity, _) in residuals
+        .into_iter()
+        .zip(&scenario.signals.residual)
+        .filter(|(_, rows)| rows.is_some())
+    {
+        push(score.errors[quantity as usize]);
+        push(sigma(quantity as usize));
+    }
     cells.extend([cell(score.nees), cell(score.nis)]);
     cells.extend((0..3).map(|axis| cell(estimate.jerk_root.map(|q| q[axis]))));
     cells

@@ -1,6 +1,7 @@
 //! The FMUs of a study: which file plays which part, and with which values it starts.
 
 mod arguments;
+mod variation;
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -14,6 +15,7 @@ use crate::HarnessError;
 use crate::scenarios::Scenario;
 
 pub use arguments::{Assignment, FilterChoice, ForeignFilter, Mapping, PAPER};
+pub use variation::{Distribution, Variation, Varied};
 
 /// Name under which `--set` addresses the truth.
 pub const TRUTH: &str = "fmu-truth";
@@ -46,7 +48,9 @@ pub struct Participant {
     pub aliases: Vec<(String, String)>,
     /// Start values by contract name, each name once.
     pub starts: Vec<(String, Value)>,
-    /// The same as text, under the FMU's own names, for the record.
+    /// Start values that each run draws anew.
+    pub varied: Vec<Varied>,
+    /// Both as text, under the FMU's own names, for the record.
     pub record: Vec<(String, String)>,
 }
 
@@ -86,6 +90,12 @@ impl Model {
 
     fn description(&self) -> &ModelDescription {
         self.fmu.description()
+    }
+
+    /// The name of the contract that a name of this FMU stands for.
+    fn contract_name(&self, own: &str) -> String {
+        let alias = self.aliases.iter().find(|(o, _)| o == own);
+        alias.map_or(own, |(_, contract)| contract).to_owned()
     }
 }
 
@@ -149,15 +159,14 @@ impl Models {
         std::iter::once(&self.truth).chain(&self.nav).chain(&self.foreign)
     }
 
-    fn require(&self, name: &str, text: &str) -> Result<(), HarnessError> {
-        if self.all().any(|m| m.name == name) {
-            return Ok(());
-        }
-        Err(HarnessError::UnknownModel {
-            model: name.to_owned(),
-            text: text.to_owned(),
-            known: self.all().map(|m| m.name.as_str()).collect::<Vec<_>>().join(", "),
-        })
+    fn require(&self, name: &str, text: &str) -> Result<&Model, HarnessError> {
+        self.all()
+            .find(|m| m.name == name)
+            .ok_or_else(|| HarnessError::UnknownModel {
+                model: name.to_owned(),
+                text: text.to_owned(),
+                known: self.all().map(|m| m.name.as_str()).collect::<Vec<_>>().join(", "),
+            })
     }
 
     /// The parts of a run: the truth, then each chosen filter, then the foreign ones.
@@ -186,6 +195,13 @@ impl Models {
                 .scenario(scenario)?
                 .filter(choice)?
                 .assign(assignments)?;
+            if let Some(why) = nav.description().without_meaning(&choice.name, scenario.name) {
+                return Err(HarnessError::NoMeaning {
+                    filter: choice.label.clone(),
+                    scenario: scenario.name.to_owned(),
+                    why: why.to_owned(),
+                });
+            }
             filters.push(starts.named(&choice.label));
         }
         for model in &self.foreign {
@@ -289,31 +305,8 @@ impl<'a> StartValues<'a> {
     }
 
     fn assign(mut self, assignments: &[Assignment]) -> Result<Self, HarnessError> {
-        for Assignment { model, variable, value } in assignments.iter().filter(|a| a.model == self.model.name) {
-            let option = match variable.as_str() {
-                "scenario" => Some("--scenario"),
-                "study_seed" => Some("--seed"),
-                "run" => Some("--runs, or --run of replay"),
-                "filter" if model == NAV => Some("--filters"),
-                _ => None,
-            };
-            if let Some(option) = option {
-                let (model, variable) = (model.clone(), variable.clone());
-                return Err(HarnessError::Reserved {
-                    model,
-                    variable,
-                    option,
-                });
-            }
-            let causality = self.model.description().variable(variable)?.causality;
-            if causality != Causality::Parameter {
-                let (model, variable) = (model.clone(), variable.clone());
-                return Err(HarnessError::NotAParameter {
-                    model,
-                    variable,
-                    causality,
-                });
-            }
+        for Assignment { variable, value, .. } in assignments.iter().filter(|a| a.model == self.model.name) {
+            check_parameter(self.model, variable)?;
             self.set(variable, value)?;
         }
         Ok(self)
@@ -326,7 +319,6 @@ impl<'a> StartValues<'a> {
                 .get(name)
                 .map_or_else(|| format!("{value:?}"), |v| v.format_value(value))
         };
-        let contract = |own: &String| aliases.iter().find(|(o, _)| o == own).map_or(own, |(_, c)| c).clone();
         Participant {
             label: label.to_owned(),
             source: fmu.clone(),
@@ -339,8 +331,39 @@ impl<'a> StartValues<'a> {
             starts: self
                 .values
                 .iter()
-                .map(|(name, value)| (contract(name), value.clone()))
+                .map(|(name, value)| (self.model.contract_name(name), value.clone()))
                 .collect(),
+            varied: Vec::new(),
         }
     }
+}
+
+/// Refuses what no option may set: no parameter, or one that another option governs.
+fn check_parameter(model: &Model, variable: &str) -> Result<(), HarnessError> {
+    let option = match variable {
+        "scenario" => Some("--scenario"),
+        "study_seed" => Some("--seed"),
+        "run" => Some("--runs, or --run of replay"),
+        "filter" if model.name == NAV => Some("--filters"),
+        _ => None,
+    };
+    let names = || (model.name.clone(), variable.to_owned());
+    if let Some(option) = option {
+        let (model, variable) = names();
+        return Err(HarnessError::Reserved {
+            model,
+            variable,
+            option,
+        });
+    }
+    let causality = model.description().variable(variable)?.causality;
+    if causality != Causality::Parameter {
+        let (model, variable) = names();
+        return Err(HarnessError::NotAParameter {
+            model,
+            variable,
+            causality,
+        });
+    }
+    Ok(())
 }

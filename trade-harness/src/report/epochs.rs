@@ -12,7 +12,8 @@ struct Axis {
     unit: &'static str,
 }
 
-fn axes(spec: &Spec, quantity: Quantity) -> [Axis; 3] {
+/// The columns of a quantity; `None` where the scenario has no such rows.
+fn axes(spec: &Spec, quantity: Quantity) -> Option<[Axis; 3]> {
     let signals = &spec.scenario.signals;
     let [a, b, c] = signals.axes;
     let named = |prefix: &str, axes: [&str; 3], unit| {
@@ -21,16 +22,20 @@ fn axes(spec: &Spec, quantity: Quantity) -> [Axis; 3] {
             unit,
         })
     };
-    match quantity {
+    let rows = |index: usize| {
+        let residual = signals.residual[index]?;
+        let [p, q, r] = residual.columns();
+        let [s, t, u] = residual.units;
+        Some([(p, s), (q, t), (r, u)].map(|(name, unit)| Axis { name, unit }))
+    };
+    Some(match quantity {
         Quantity::Position => named("pos", [a, b, c], "m"),
         Quantity::Velocity => named("vel", [a, b, c], "m_s"),
         Quantity::Acceleration => named("acc", [a, b, c], "m_s2"),
         Quantity::Bias => named("bias", ["x", "y", "z"], "m_s2"),
-        Quantity::Residual => signals.residual.map(|(name, unit)| Axis {
-            name: name.replace('.', "_"),
-            unit,
-        }),
-    }
+        Quantity::Residual => rows(0)?,
+        Quantity::ResidualRate => rows(1)?,
+    })
 }
 
 /// Contents of the file: at each sample the number of runs and, by axis, the mean error, Eq. (31), the sample sigma,
@@ -43,8 +48,13 @@ fn axes(spec: &Spec, quantity: Quantity) -> [Axis; 3] {
 pub fn render(spec: &Spec, result: &FilterResult) -> Result<Vec<u8>, HarnessError> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut header = vec!["t_s".to_owned(), "runs".to_owned()];
-    for Axis { name, unit } in Quantity::ALL.iter().flat_map(|q| axes(spec, *q)) {
-        header.extend(["mean", "sample_sigma", "est_sigma"].map(|kind| format!("{kind}_{name}_{unit}")));
+    let mut quantities = Vec::new();
+    for quantity in Quantity::ALL {
+        let Some(axes) = axes(spec, quantity) else { continue };
+        quantities.push(quantity);
+        for Axis { name, unit } in axes {
+            header.extend(["mean", "sample_sigma", "est_sigma"].map(|kind| format!("{kind}_{name}_{unit}")));
+        }
     }
     header.extend(["nees".to_owned(), "nis".to_owned()]);
     writer.write_record(&header)?;
@@ -54,8 +64,8 @@ pub fn render(spec: &Spec, result: &FilterResult) -> Result<Vec<u8>, HarnessErro
             continue;
         };
         let mut record = vec![cell(Some(spec.time(epoch))), position.runs.to_string()];
-        for quantity in Quantity::ALL {
-            let moments = result.ensemble(quantity).at(epoch);
+        for quantity in &quantities {
+            let moments = result.ensemble(*quantity).at(epoch);
             let sample = moments.map(|m| m.sample_sigma());
             let estimated = moments.and_then(|m| m.estimated_sigma());
             for axis in 0..3 {

@@ -30,6 +30,7 @@ const RUNS: &[&str] = &[
     "vel_rmse_m_s",
     "acc_rmse_m_s2",
     "nees",
+    "nis",
 ];
 
 /// Contents of `runs.csv`: each run of each filter, for finding the run to replay.
@@ -38,7 +39,16 @@ const RUNS: &[&str] = &[
 /// [`HarnessError::Csv`].
 pub fn render_runs(studies: &[Named<'_>]) -> Result<Vec<u8>, HarnessError> {
     #[derive(Serialize)]
-    struct Line<'a>(&'a str, &'a str, &'a str, u32, u8, u8, [Option<f64>; 3], Option<f64>);
+    struct Line<'a>(
+        &'a str,
+        &'a str,
+        &'a str,
+        u32,
+        u8,
+        u8,
+        [Option<f64>; 3],
+        [Option<f64>; 2],
+    );
     let lines = studies.iter().flat_map(|s| {
         s.filters.iter().flat_map(move |f| {
             f.runs.iter().map(move |r| {
@@ -51,7 +61,7 @@ pub fn render_runs(studies: &[Named<'_>]) -> Result<Vec<u8>, HarnessError> {
                     failed,
                     diverged,
                     r.rmse,
-                    r.nees,
+                    [r.nees, r.nis],
                 )
             })
         })

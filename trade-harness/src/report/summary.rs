@@ -1,12 +1,13 @@
 //! `summary.csv`: one row for each scenario, filter and case.
 
+use nalgebra::Vector3;
 use serde::Serialize;
-use stats::{mean_chi_square_bounds, mean_error_in_sigmas};
+use stats::{mean_chi_square_bounds, mean_error_in_sigmas, rmse_standard_error, standard_error};
 
 use super::csv_bytes;
 use crate::HarnessError;
 use crate::score::Quantity;
-use crate::study::FilterResult;
+use crate::study::{FilterResult, RunRow, mean_vector};
 
 /// Confidence of the bounds of the NEES.
 const CONFIDENCE: f64 = 0.95;
@@ -14,7 +15,7 @@ const CONFIDENCE: f64 = 0.95;
 macro_rules! row {
     ($($(#[$doc:meta])* $field:ident: $type:ty,)*) => {
         /// One row; `None` is an empty cell.
-        #[derive(Debug, Clone, PartialEq, Serialize)]
+        #[derive(Debug, Clone, Default, PartialEq, Serialize)]
         pub struct SummaryRow {
             $($(#[$doc])* pub $field: $type,)*
         }
@@ -97,6 +98,48 @@ row! {
     nees_dimension: Option<usize>,
     /// Samples whose covariance was not symmetric, positive definite and finite.
     cov_broken: u64,
+    /// Root mean square of the position error on the first axis (radial, or LVLH x), m.
+    pos_rmse_r_m: Option<f64>,
+    /// Second axis (transverse, or LVLH y).
+    pos_rmse_t_m: Option<f64>,
+    /// Third axis (normal, or LVLH z).
+    pos_rmse_n_m: Option<f64>,
+    /// Root mean square of the velocity error on the first axis (radial, or LVLH x), m/s.
+    vel_rmse_r_m_s: Option<f64>,
+    /// Second axis (transverse, or LVLH y).
+    vel_rmse_t_m_s: Option<f64>,
+    /// Third axis (normal, or LVLH z).
+    vel_rmse_n_m_s: Option<f64>,
+    /// Root mean square of the acceleration error on the first axis (radial, or LVLH x), m/s2.
+    acc_rmse_r_m_s2: Option<f64>,
+    /// Second axis (transverse, or LVLH y).
+    acc_rmse_t_m_s2: Option<f64>,
+    /// Third axis (normal, or LVLH z).
+    acc_rmse_n_m_s2: Option<f64>,
+    /// Standard error of `pos_rmse_m` over the runs, m.
+    pos_rmse_se_m: Option<f64>,
+    /// The same of `vel_rmse_m_s`, m/s.
+    vel_rmse_se_m_s: Option<f64>,
+    /// The same of `acc_rmse_m_s2`, m/s2.
+    acc_rmse_se_m_s2: Option<f64>,
+    /// Standard error of `acc_rmse_r_m_s2`, m/s2.
+    acc_rmse_se_r_m_s2: Option<f64>,
+    /// Standard error of `acc_rmse_t_m_s2`, m/s2.
+    acc_rmse_se_t_m_s2: Option<f64>,
+    /// Standard error of `acc_rmse_n_m_s2`, m/s2.
+    acc_rmse_se_n_m_s2: Option<f64>,
+    /// Standard error of `nees` over the runs.
+    nees_se: Option<f64>,
+    /// Standard error of `nis` over the runs.
+    nis_se: Option<f64>,
+    /// Root mean square of the true acceleration: the RMSE of an estimate that is always zero, m/s2.
+    acc_rmse_of_zero_m_s2: Option<f64>,
+    /// The same on the first axis.
+    acc_rmse_of_zero_r_m_s2: Option<f64>,
+    /// Second axis.
+    acc_rmse_of_zero_t_m_s2: Option<f64>,
+    /// Third axis.
+    acc_rmse_of_zero_n_m_s2: Option<f64>,
 }
 
 impl SummaryRow {
@@ -113,6 +156,26 @@ impl SummaryRow {
         let [ratio_pos_r, ratio_pos_t, ratio_pos_n] = by_axis(Quantity::Position);
         let [ratio_vel_r, ratio_vel_t, ratio_vel_n] = by_axis(Quantity::Velocity);
         let [ratio_acc_r, ratio_acc_t, ratio_acc_n] = by_axis(Quantity::Acceleration);
+        let rmse_by_axis = |q| match result.ensemble(q).rmse_by_axis(time.clone()) {
+            Some(rmse) => [Some(rmse.x), Some(rmse.y), Some(rmse.z)],
+            None => [None; 3],
+        };
+        let [pos_rmse_r_m, pos_rmse_t_m, pos_rmse_n_m] = rmse_by_axis(Quantity::Position);
+        let [vel_rmse_r_m_s, vel_rmse_t_m_s, vel_rmse_n_m_s] = rmse_by_axis(Quantity::Velocity);
+        let [acc_rmse_r_m_s2, acc_rmse_t_m_s2, acc_rmse_n_m_s2] = rmse_by_axis(Quantity::Acceleration);
+        let mean_squares = |of: &dyn Fn(&RunRow) -> Option<Vector3<f64>>, part: fn(Vector3<f64>) -> f64| {
+            result.runs.iter().filter_map(of).map(part).collect::<Vec<_>>()
+        };
+        let rmse_error = |q: Quantity| rmse_standard_error(&mean_squares(&|r| r.mean_squares[q as usize], |v| v.sum()));
+        let acc_error = |axis: fn(Vector3<f64>) -> f64| {
+            rmse_standard_error(&mean_squares(
+                &|r| r.mean_squares[Quantity::Acceleration as usize],
+                axis,
+            ))
+        };
+        let scalar_error =
+            |of: fn(&RunRow) -> Option<f64>| standard_error(&result.runs.iter().filter_map(of).collect::<Vec<_>>());
+        let of_zero = mean_vector(result.runs.iter().filter_map(|r| r.true_acceleration_mean_square));
         let dimension = result.dimension;
         let bounds_for = |runs: u32| mean_chi_square_bounds(runs as usize, dimension, CONFIDENCE).ok();
         let finished = result.runs.len() - result.failed();
@@ -157,6 +220,27 @@ impl SummaryRow {
             nees_inside: result.nees.share_of_epochs_inside(bounds_for),
             nees_dimension: (dimension > 0).then_some(dimension),
             cov_broken: result.covariances_broken,
+            pos_rmse_r_m,
+            pos_rmse_t_m,
+            pos_rmse_n_m,
+            vel_rmse_r_m_s,
+            vel_rmse_t_m_s,
+            vel_rmse_n_m_s,
+            acc_rmse_r_m_s2,
+            acc_rmse_t_m_s2,
+            acc_rmse_n_m_s2,
+            pos_rmse_se_m: rmse_error(Quantity::Position),
+            vel_rmse_se_m_s: rmse_error(Quantity::Velocity),
+            acc_rmse_se_m_s2: rmse_error(Quantity::Acceleration),
+            acc_rmse_se_r_m_s2: acc_error(|v| v[0]),
+            acc_rmse_se_t_m_s2: acc_error(|v| v[1]),
+            acc_rmse_se_n_m_s2: acc_error(|v| v[2]),
+            nees_se: scalar_error(|r| r.nees),
+            nis_se: scalar_error(|r| r.nis),
+            acc_rmse_of_zero_m_s2: of_zero.map(|v| v.sum().sqrt()),
+            acc_rmse_of_zero_r_m_s2: of_zero.map(|v| v[0].sqrt()),
+            acc_rmse_of_zero_t_m_s2: of_zero.map(|v| v[1].sqrt()),
+            acc_rmse_of_zero_n_m_s2: of_zero.map(|v| v[2].sqrt()),
         }
     }
 

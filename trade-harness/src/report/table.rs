@@ -137,26 +137,7 @@ mod tests {
             nees: Some(0.0),
             nees_median: Some(123_456.0),
             nis: None,
-            ratio_pos_r: None,
-            ratio_pos_t: None,
-            ratio_pos_n: None,
-            ratio_vel_r: None,
-            ratio_vel_t: None,
-            ratio_vel_n: None,
-            ratio_acc_r: None,
-            ratio_acc_t: None,
-            ratio_acc_n: None,
-            bias_rmse_m_s2: None,
-            ratio_bias: None,
-            coverage_3s_pos: None,
-            coverage_3s_vel: None,
-            coverage_3s_acc: None,
-            coverage_3s_bias: None,
-            nees_low: None,
-            nees_high: None,
-            nees_inside: None,
-            nees_dimension: None,
-            cov_broken: 0,
+            ..SummaryRow::default()
         }
     }
 

@@ -181,6 +181,9 @@ fn seat(system: &mut System, participant: &Participant, seed: i32, run: u32) -> 
     for (name, value) in &participant.starts {
         system.set_start(id, name, value.clone())?;
     }
+    for varied in &participant.varied {
+        system.set_start(id, &varied.name, Value::Real(varied.value(seed, run)))?;
+    }
     let run = i32::try_from(run).unwrap_or(i32::MAX);
     for (name, value) in [("study_seed", seed), ("run", run)] {
         if system.port(id, name).is_some() {

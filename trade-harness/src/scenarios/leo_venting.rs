@@ -1,6 +1,6 @@
 //! Rendezvous in low Earth orbit with a target that vents.
 
-use super::{Scenario, VENTING_SIGNALS, milton_claims};
+use super::{Scenario, VENTING_FILTERS, VENTING_SIGNALS, milton_claims};
 
 const OVERLAY: &str = "estimated and sample 3 sigma of relative position nearly overlay (Fig. 1)";
 const OVER_ESTIMATED: &str = "velocity and acceleration are over-estimated (Figs. 2 and 3)";
@@ -13,5 +13,6 @@ pub(super) const SCENARIO: Scenario = Scenario {
     duration: 5680.0,
     scored_from: 300.0,
     signals: VENTING_SIGNALS,
+    filters: VENTING_FILTERS,
     bounds: &milton_claims(OVERLAY, OVER_ESTIMATED, UNBIASED),
 };

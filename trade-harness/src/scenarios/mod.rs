@@ -3,6 +3,7 @@
 //!
 //! A scenario is one file here and one line in [`SCENARIOS`]; the FMUs' `scenario` enumeration has the item of its name.
 
+mod formation;
 mod leo_venting;
 mod nrho_venting;
 
@@ -12,7 +13,7 @@ use crate::HarnessError;
 use crate::signals::TruthSample;
 
 /// Every scenario, in the order lists show them.
-pub const SCENARIOS: &[Scenario] = &[leo_venting::SCENARIO, nrho_venting::SCENARIO];
+pub const SCENARIOS: &[Scenario] = &[leo_venting::SCENARIO, nrho_venting::SCENARIO, formation::SCENARIO];
 
 /// One world.
 #[derive(Debug)]
@@ -29,6 +30,8 @@ pub struct Scenario {
     pub scored_from: f64,
     /// Which variables are compared, in which axes.
     pub signals: Signals,
+    /// Filters of fmu-nav that are compared unless others are asked for, as `--filters` takes them.
+    pub filters: &'static [&'static str],
     /// What the reproduction is held to.
     pub bounds: &'static [Bound],
 }
@@ -48,14 +51,30 @@ pub struct Signals {
     pub chaser: Option<[&'static str; 2]>,
     /// Boolean of the truth that is false for a dropped sample.
     pub measurement_valid: &'static str,
-    /// Innovation of the filter, in this order, with unit suffixes for column names.
-    pub residual: [(&'static str, &'static str); 3],
+    /// Innovation of the filter, three rows at a time, in the order of `innov.s`.
+    pub residual: [Option<Residual>; 2],
     /// Rows of the measurement that `nis` is taken over.
     pub nis_rows: u32,
     /// Names of the axes results are given in.
     pub axes: [&'static str; 3],
     /// Matrix that turns the truth's axes into those of the results; `None` where they are undefined.
     pub report_axes: fn(&TruthSample) -> Option<Matrix3<f64>>,
+}
+
+/// Three rows of an innovation.
+#[derive(Debug, Clone, Copy)]
+pub struct Residual {
+    /// Names of the filter's variables.
+    pub names: [&'static str; 3],
+    /// Unit suffixes for column names.
+    pub units: [&'static str; 3],
+}
+
+impl Residual {
+    /// Names for columns, without unit.
+    pub fn columns(&self) -> [String; 3] {
+        self.names.map(|name| name.replace(['.', '['], "_").replace(']', ""))
+    }
 }
 
 /// A 3-vector that both the truth and the filter offer; elements are `name[1]`..`name[3]`.
@@ -116,14 +135,25 @@ const VENTING_SIGNALS: Signals = Signals {
     chaser: Some(["truth.r_c_n", "truth.v_c_n"]),
     measurement_valid: "lidar.valid",
     residual: [
-        ("innov.range", "m"),
-        ("innov.azimuth", "rad"),
-        ("innov.elevation", "rad"),
+        Some(Residual {
+            names: ["innov.range", "innov.azimuth", "innov.elevation"],
+            units: ["m", "rad", "rad"],
+        }),
+        None,
     ],
     nis_rows: 3,
     axes: ["r", "t", "n"],
     report_axes: target_rtn,
 };
+
+/// Filters compared in the venting worlds.
+const VENTING_FILTERS: &[&str] = &[
+    "fixed_q",
+    "fixed_q@small",
+    "milton",
+    "milton@consistent",
+    "constrained_q",
+];
 
 /// What the MILTON paper claims of each of its scenarios, as bounds.
 ///
@@ -199,6 +229,10 @@ mod tests {
         for scenario in SCENARIOS {
             assert_eq!(find(scenario.name).unwrap().name, scenario.name);
             assert!(scenario.scored_from < scenario.duration, "{}", scenario.name);
+            assert!(!scenario.filters.is_empty(), "{}", scenario.name);
+            for filter in scenario.filters {
+                assert!(filter.parse::<crate::models::FilterChoice>().is_ok(), "{filter}");
+            }
             for bound in scenario.bounds {
                 assert!(bound.low <= bound.high, "{}: {}", scenario.name, bound.column);
                 assert!(

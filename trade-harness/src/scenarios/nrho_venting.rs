@@ -3,7 +3,7 @@
 use astro::cr3bp::{EARTH_MOON_LENGTH, EARTH_MOON_MASS_RATIO, EARTH_MOON_TIME};
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Scenario, Signals, VENTING_SIGNALS, milton_claims, rtn, target};
+use super::{Scenario, Signals, VENTING_FILTERS, VENTING_SIGNALS, milton_claims, rtn, target};
 use crate::signals::TruthSample;
 
 const OVERLAY: &str = "estimated and sample 3 sigma of relative position nearly overlay (Fig. 8)";
@@ -21,6 +21,7 @@ pub(super) const SCENARIO: Scenario = Scenario {
         report_axes: rtn_about_the_moon,
         ..VENTING_SIGNALS
     },
+    filters: VENTING_FILTERS,
     bounds: &milton_claims(OVERLAY, OVER_ESTIMATED, UNBIASED),
 };
 

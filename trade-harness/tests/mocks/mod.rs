@@ -6,7 +6,7 @@ use cosim::{BaseType, Causality, Port, Scheme, Slave, SlaveError};
 use trade_harness::HarnessError;
 use trade_harness::models::{Participant, SlaveSource};
 use trade_harness::run::Spec;
-use trade_harness::scenarios::{Scenario, Signal, Signals, target_rtn};
+use trade_harness::scenarios::{Residual, Scenario, Signal, Signals, target_rtn};
 
 /// 40 samples of 1 s, scored from the eleventh.
 pub static SCENARIO: Scenario = Scenario {
@@ -32,20 +32,28 @@ pub static SCENARIO: Scenario = Scenario {
         chaser: Some(["truth.r_c_n", "truth.v_c_n"]),
         measurement_valid: "lidar.valid",
         residual: [
-            ("innov.range", "m"),
-            ("innov.azimuth", "rad"),
-            ("innov.elevation", "rad"),
+            Some(Residual {
+                names: ["innov.range", "innov.azimuth", "innov.elevation"],
+                units: ["m", "rad", "rad"],
+            }),
+            None,
         ],
         nis_rows: 3,
         axes: ["r", "t", "n"],
         report_axes: target_rtn,
     },
+    filters: &["good"],
     bounds: &[],
 };
 
 /// Error of the estimate of a sample, the same on position and velocity; R, T, N are the axes x, y, z of this world.
 pub fn noise(run: i32, count: i32, axis: usize) -> f64 {
     (f64::from(run * 31 + count * 17) * 12.9898 + axis as f64 * 78.233).sin()
+}
+
+/// True acceleration of this world, m/s2.
+pub fn acceleration(axis: usize) -> f64 {
+    1e-5 * (axis + 1) as f64
 }
 
 /// Position sigma that the mock filter claims, m.
@@ -84,6 +92,10 @@ pub enum Quirk {
     NoInitialEstimate,
     /// A truth that samples half a second late.
     OffGrid,
+    /// Estimates an acceleration beside six states with a covariance, and says so for odd samples only.
+    EstimatesAcceleration,
+    /// Its errors grow by the factor of the parameter `factor`.
+    Scaled,
     /// Samples of multiples of five hold no measurement; the NIS output keeps a wild value then.
     Drops,
 }
@@ -106,6 +118,7 @@ fn participant(label: &str, truth: bool, quirk: Quirk) -> Participant {
         source: Arc::new(Source { truth, quirk }),
         aliases: Vec::new(),
         starts: Vec::new(),
+        varied: Vec::new(),
         record: Vec::new(),
     }
 }
@@ -176,6 +189,13 @@ impl Mock {
         } else {
             "est.v_tc_n"
         });
+        if quirk == Quirk::EstimatesAcceleration {
+            mock.port("est.acceleration_valid", BaseType::Boolean, Causality::Output);
+            mock.vector("est.a_t_n");
+        }
+        if quirk == Quirk::Scaled {
+            mock.port("factor", BaseType::Real, Causality::Parameter);
+        }
         if quirk != Quirk::Bare {
             mock.port("est.count", BaseType::Integer, Causality::Output);
             mock.port("est.time", BaseType::Real, Causality::Output);
@@ -245,6 +265,9 @@ impl Mock {
             self.booleans[valid] = self.quirk != Quirk::Drops || count % 5 != 0;
         }
         self.put("truth.r_tc_n[1]", 100.0);
+        for axis in 0..3 {
+            self.put(&format!("truth.a_t_n[{}]", axis + 1), acceleration(axis));
+        }
         self.put("truth.r_c_n[1]", 7e6);
         self.put("truth.v_c_n[2]", 7e3);
     }
@@ -255,8 +278,14 @@ impl Mock {
             return;
         }
         self.last = count;
+        let factor = self.at("factor").map_or(1.0, |at| self.reals[at]);
+        if let Some(at) = self.at("est.acceleration_valid") {
+            self.booleans[at] = count % 2 == 1;
+        }
         for axis in 0..3 {
-            let mut position = noise(run, count, axis) + if axis == 0 { 100.0 } else { 0.0 };
+            let estimate = acceleration(axis) + 1e-6 * noise(run, count, axis);
+            self.put(&format!("est.a_t_n[{}]", axis + 1), estimate);
+            let mut position = factor * noise(run, count, axis) + if axis == 0 { 100.0 } else { 0.0 };
             match self.quirk {
                 Quirk::NotFinite { run: r } if r == run && count > 7 => position = f64::NAN,
                 Quirk::Lost { run: r } if r == run => position += 200.0,
