@@ -27,6 +27,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// Write one run out, sample by sample
     Replay(ReplayArgs),
+    /// Rerun everything the two papers print and hold it beside their numbers
+    Reproduce(ReproduceArgs),
     /// Show what an FMU is and which variables it has
     Inspect(InspectArgs),
 }
@@ -82,6 +84,24 @@ pub struct StudyArgs {
     /// Where our FMUs come from.
     #[command(flatten)]
     pub build: BuildArgs,
+}
+
+impl StudyArgs {
+    /// Our own FMUs, nothing set, the filters of each scenario.
+    pub(crate) fn plain(seed: i32, build: &BuildArgs) -> Self {
+        Self {
+            filters: Vec::new(),
+            seed,
+            assignments: Vec::new(),
+            variations: Vec::new(),
+            step: None,
+            scheme: SchemeChoice::GaussSeidel,
+            truth: None,
+            foreign: Vec::new(),
+            mappings: Vec::new(),
+            build: build.clone(),
+        }
+    }
 }
 
 /// An element of `--filters`; `--filters ''` is one that chooses nothing.
@@ -192,6 +212,26 @@ pub struct ReplayArgs {
     /// Which filters, which parameters.
     #[command(flatten)]
     pub study: StudyArgs,
+}
+
+/// `reproduce`.
+#[derive(Debug, Args)]
+pub struct ReproduceArgs {
+    /// Runs of each study; the bounds are meant for 100
+    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=i64::from(i32::MAX)))]
+    pub runs: u32,
+    /// Seed of the studies
+    #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_parser = clap::value_parser!(i32).range(0..))]
+    pub seed: i32,
+    /// Threads [default: all cores]
+    #[arg(long)]
+    pub jobs: Option<std::num::NonZeroUsize>,
+    /// Folder for the results
+    #[arg(long, value_name = "DIR", default_value = "results/reproduce")]
+    pub out: PathBuf,
+    /// Where our FMUs come from.
+    #[command(flatten)]
+    pub build: BuildArgs,
 }
 
 /// `inspect`.

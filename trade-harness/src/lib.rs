@@ -16,6 +16,7 @@ mod ordered;
 pub mod output;
 pub mod pack;
 pub mod report;
+pub mod reproduce;
 pub mod run;
 pub mod scenarios;
 pub mod score;

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Cast, Verdict, note, say};
+use super::{Cast, Verdict, note, say, threads};
 use crate::HarnessError;
 use crate::cli::CompareArgs;
 use crate::output::OutputFolder;
@@ -28,10 +28,7 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
         .collect::<Result<Vec<_>, _>>()?;
     let folder = OutputFolder::prepare(&args.out)?;
     let cast = Cast::new(&args.study)?;
-    let jobs = args
-        .jobs
-        .or_else(|| std::thread::available_parallelism().ok())
-        .map_or(1, usize::from);
+    let jobs = threads(args.jobs);
     let mut studies = Vec::new();
     for scenario in worlds {
         let spec = cast.spec(&args.study, scenario)?;
@@ -59,13 +56,13 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
 }
 
 /// The live line on stderr; hidden where nobody watches.
-struct Progress<'a> {
+pub(super) struct Progress<'a> {
     study: &'a Study,
     bar: ProgressBar,
 }
 
 impl<'a> Progress<'a> {
-    fn new(study: &'a Study, quiet: bool) -> Self {
+    pub(super) fn new(study: &'a Study, quiet: bool) -> Self {
         let target = if quiet {
             ProgressDrawTarget::hidden()
         } else {
@@ -74,12 +71,12 @@ impl<'a> Progress<'a> {
         let bar = ProgressBar::with_draw_target(Some(u64::from(study.runs)), target);
         let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} runs, {eta} left");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        bar.set_message(study.spec.scenario.name);
+        bar.set_message(format!("{}, {}", study.spec.scenario.name, study.case));
         bar.enable_steady_tick(Duration::from_millis(500));
         Self { study, bar }
     }
 
-    fn finished(&self, run: u32, rows: &[RunRow]) {
+    pub(super) fn finished(&self, run: u32, rows: &[RunRow]) {
         for (filter, row) in self.study.spec.filters.iter().zip(rows) {
             if let Some(failure) = &row.failure {
                 let when = failure.time.map(|t| format!(" at {t} s")).unwrap_or_default();
@@ -94,7 +91,7 @@ impl<'a> Progress<'a> {
         self.bar.inc(1);
     }
 
-    fn end(&self) {
+    pub(super) fn end(&self) {
         self.bar.finish_and_clear();
     }
 }
@@ -156,17 +153,12 @@ impl<'a> Report<'a> {
             }
         }
         let models = || cast.models.all();
-        let path = |path: &std::path::Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let manifest = Manifest {
             harness_version: env!("CARGO_PKG_VERSION"),
             models: models().map(|m| (m.name.clone(), ModelFacts::new(m))).collect(),
             studies: self.studies.iter().map(StudyFacts::new).collect(),
             files: files.iter().map(|(name, _)| name.clone()).collect(),
-            environment: Environment::now(
-                jobs,
-                self.results.iter().map(|r| r.wall).sum(),
-                models().map(|m| (m.name.clone(), path(m.fmu.path()).display().to_string())),
-            ),
+            environment: Environment::now(jobs, self.results.iter().map(|r| r.wall).sum(), models()),
         };
         files.push(("manifest.json".to_owned(), manifest.render()?));
         files
@@ -208,6 +200,7 @@ impl<'a> Report<'a> {
             } else {
                 Vec::new()
             };
+            say(out, &format!("\n{}", table::render_axes(&rows, scenario.signals.axes)))?;
             if !verdicts.is_empty() {
                 say(
                     out,

@@ -5,6 +5,7 @@ mod inspect;
 mod list;
 mod pack;
 mod replay;
+mod reproduce;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -32,6 +33,7 @@ pub fn execute(cli: Cli) -> ExitCode {
         Command::Pack(args) => pack::pack(&args, &mut out),
         Command::Compare(args) => compare::compare(&args, &mut out),
         Command::Replay(args) => replay::replay(&args, &mut out),
+        Command::Reproduce(args) => reproduce::reproduce(&args, &mut out),
         Command::Inspect(args) => inspect::inspect(&args, &mut out),
     };
     match result {
@@ -74,6 +76,13 @@ fn own_fmus(args: &BuildArgs, needed: &[&str]) -> Result<Vec<PathBuf>, HarnessEr
         }
     };
     needed.iter().map(existing).collect()
+}
+
+/// Threads to use: as many as asked for, else one for each core.
+fn threads(asked: Option<std::num::NonZeroUsize>) -> usize {
+    asked
+        .or_else(|| std::thread::available_parallelism().ok())
+        .map_or(1, usize::from)
 }
 
 /// The FMUs that a study names.

@@ -48,7 +48,7 @@ impl ModelFacts {
 }
 
 /// What one scenario's study consisted of.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct StudyFacts {
     scenario: String,
     case: String,
@@ -63,7 +63,7 @@ pub struct StudyFacts {
     filters: Vec<FilterFacts>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 struct FilterFacts {
     filter: String,
     parameters: BTreeMap<String, String>,
@@ -126,7 +126,10 @@ pub struct Environment {
 
 impl Environment {
     /// Looks around.
-    pub fn now(jobs: usize, wall: Duration, fmus: impl Iterator<Item = (String, String)>) -> Self {
+    ///
+    /// * `wall`: time on the clock for all runs.
+    pub fn now<'a>(jobs: usize, wall: Duration, models: impl Iterator<Item = &'a Model>) -> Self {
+        let path = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let host = fs::read_to_string("/proc/sys/kernel/hostname").ok();
         Self {
             date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
@@ -137,7 +140,9 @@ impl Environment {
             cores: std::thread::available_parallelism().ok().map(usize::from),
             jobs,
             command_line: std::env::args().collect(),
-            fmu_paths: fmus.collect(),
+            fmu_paths: models
+                .map(|m| (m.name.clone(), path(m.fmu.path()).display().to_string()))
+                .collect(),
             wall_time_s: wall.as_secs_f64(),
             peak_memory_mib: peak_memory_mib(),
         }

@@ -15,7 +15,10 @@ use serde::Serialize;
 use crate::HarnessError;
 
 /// A CSV file with a header, also when there are no rows; absent values are empty cells.
-fn csv_bytes(columns: &[&str], rows: impl IntoIterator<Item = impl Serialize>) -> Result<Vec<u8>, HarnessError> {
+pub(crate) fn csv_bytes(
+    columns: &[&str],
+    rows: impl IntoIterator<Item = impl Serialize>,
+) -> Result<Vec<u8>, HarnessError> {
     let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
     writer.write_record(columns)?;
     for row in rows {

@@ -48,14 +48,7 @@ pub fn number(value: Option<f64>) -> String {
 
 /// The table of one scenario, without a final newline.
 pub fn render(rows: &[SummaryRow], timings: &[TimingRow]) -> String {
-    let rule = LineStyle::none().fill('─').junction('─');
-    let mut table = Table::new();
-    table.load_style(
-        TableStyle::new()
-            .top_border(rule)
-            .header_separator(rule)
-            .bottom_border(rule),
-    );
+    let mut table = ruled();
     table.set_header(HEADERS);
     for row in rows {
         let same = |t: &&TimingRow| t.scenario == row.scenario && t.filter == row.filter && t.case == row.case;
@@ -78,9 +71,27 @@ pub fn render(rows: &[SummaryRow], timings: &[TimingRow]) -> String {
             timing.map_or_else(|| number(None), |t| format!("{:.1}", 100.0 * t.fmi_share)),
         ]);
     }
+    lines(&mut table, 1)
+}
+
+/// An empty table with rules above, below and under the header.
+fn ruled() -> Table {
+    let rule = LineStyle::none().fill('─').junction('─');
+    let mut table = Table::new();
+    table.load_style(
+        TableStyle::new()
+            .top_border(rule)
+            .header_separator(rule)
+            .bottom_border(rule),
+    );
+    table
+}
+
+/// The table as text; columns after the first `left` are aligned to the right.
+fn lines(table: &mut Table, left: usize) -> String {
     for (index, column) in table.column_iter_mut().enumerate() {
         column.set_padding((0, 1));
-        if index > 0 {
+        if index >= left {
             column.set_cell_alignment(CellAlignment::Right);
         }
     }
@@ -89,6 +100,37 @@ pub fn render(rows: &[SummaryRow], timings: &[TimingRow]) -> String {
         .map(|line| line.trim_end().to_owned())
         .collect::<Vec<_>>()
         .join("\n")
+}
+
+/// RMSE, ratio of sigmas on each axis, and coverage of each quantity of one scenario, without a final newline.
+///
+/// * `axes`: names of the axes of the results.
+pub fn render_axes(rows: &[SummaryRow], axes: [&str; 3]) -> String {
+    let mut table = ruled();
+    let mut header = vec!["filter".to_owned(), "RMSE of".to_owned()];
+    header.extend(axes.map(|axis| format!("{axis}\n")));
+    header.push("standard error\nof the norm".to_owned());
+    header.extend(axes.map(|axis| format!("ratio\n{axis}")));
+    header.push("inside\n3 sigma [%]".to_owned());
+    table.set_header(header);
+    for row in rows {
+        for (name, prefix, unit) in [
+            ("pos [m]", "pos", "m"),
+            ("vel [m/s]", "vel", "m_s"),
+            ("acc [m/s2]", "acc", "m_s2"),
+        ] {
+            let column = |name: String| number(row.number(&name));
+            let axis = |kind: &str, suffix: &str| ["r", "t", "n"].map(|axis| column(format!("{kind}_{axis}{suffix}")));
+            let mut cells = vec![row.filter.clone(), name.to_owned()];
+            cells.extend(axis(&format!("{prefix}_rmse"), &format!("_{unit}")));
+            cells.push(column(format!("{prefix}_rmse_se_{unit}")));
+            cells.extend(axis(&format!("ratio_{prefix}"), ""));
+            let inside = row.number(&format!("coverage_3s_{prefix}"));
+            cells.push(inside.map_or_else(|| number(None), |share| format!("{:.2}", 100.0 * share)));
+            table.add_row(cells);
+        }
+    }
+    lines(&mut table, 2)
 }
 
 /// One line for each claim, without a final newline.
@@ -157,6 +199,25 @@ mod tests {
         let text = render(&[row("milton", Some(4.2e-5)), row("snc", None)], &[timing]);
         let expected = include_str!("table_snapshot.txt");
         assert_eq!(text, expected.trim_end_matches('\n'), "\n{text}");
+    }
+
+    /// Cells of the last columns stand under the right heads.
+    #[test]
+    fn axes_of_a_filter_with_and_without_a_covariance() {
+        let mut full = row("milton", None);
+        full.pos_rmse_t_m = Some(0.25);
+        full.ratio_pos_n = Some(1.06);
+        full.coverage_3s_pos = Some(0.99829);
+        full.vel_rmse_se_m_s = Some(0.0125);
+        let text = render_axes(&[full], ["x", "y", "z"]);
+        let cells = |line: usize| text.lines().nth(line).unwrap().split_whitespace().collect::<Vec<_>>();
+        let [position, velocity] = [4, 5].map(|line| cells(line)[3..].to_vec());
+        assert_eq!(
+            position,
+            ["-", "0.2500", "-", "-", "-", "-", "1.060", "99.83"],
+            "{text}"
+        );
+        assert_eq!(velocity, ["-", "-", "-", "0.01250", "-", "-", "-", "-"], "{text}");
     }
 
     #[test]

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use super::{Residual, Scenario, Signal, Signals};
 use crate::signals::TruthSample;
 
-pub(super) const SCENARIO: Scenario = Scenario {
+pub(crate) const SCENARIO: Scenario = Scenario {
     name: "formation",
     about: "Two spacecraft 12 m apart on an eccentric orbit; relative position and velocity are measured in full at 1 Hz",
     reference: "Pesce, Silvestrini and Lavagna, Sec. IV, Tables 1-4, Figs. 4-7",

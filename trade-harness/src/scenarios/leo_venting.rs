@@ -4,6 +4,7 @@ use super::{Scenario, VENTING_FILTERS, VENTING_SIGNALS, milton_claims};
 
 const OVERLAY: &str = "estimated and sample 3 sigma of relative position nearly overlay (Fig. 1)";
 const OVER_ESTIMATED: &str = "velocity and acceleration are over-estimated (Figs. 2 and 3)";
+const INSIDE: &str = "the runs stay inside the estimated 3 sigma (Figs. 1-3)";
 const UNBIASED: &str = "the mean error is zero within its sampling noise (Figs. 1-3)";
 
 pub(super) const SCENARIO: Scenario = Scenario {
@@ -14,5 +15,5 @@ pub(super) const SCENARIO: Scenario = Scenario {
     scored_from: 300.0,
     signals: VENTING_SIGNALS,
     filters: VENTING_FILTERS,
-    bounds: &milton_claims(OVERLAY, OVER_ESTIMATED, UNBIASED),
+    bounds: &milton_claims(OVERLAY, OVER_ESTIMATED, INSIDE, UNBIASED),
 };

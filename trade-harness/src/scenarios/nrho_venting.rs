@@ -9,6 +9,7 @@ use crate::signals::TruthSample;
 const OVERLAY: &str = "estimated and sample 3 sigma of relative position nearly overlay (Fig. 8)";
 const OVER_ESTIMATED: &str =
     "velocity and acceleration are over-estimated, though less than in low Earth orbit (Figs. 9 and 10)";
+const INSIDE: &str = "the runs stay inside the estimated 3 sigma (Figs. 8-10)";
 const UNBIASED: &str = "the mean error is zero within its sampling noise (Figs. 8-10)";
 
 pub(super) const SCENARIO: Scenario = Scenario {
@@ -22,7 +23,7 @@ pub(super) const SCENARIO: Scenario = Scenario {
         ..VENTING_SIGNALS
     },
     filters: VENTING_FILTERS,
-    bounds: &milton_claims(OVERLAY, OVER_ESTIMATED, UNBIASED),
+    bounds: &milton_claims(OVERLAY, OVER_ESTIMATED, INSIDE, UNBIASED),
 };
 
 /// Rows R, T, N of the target's orbit about the Moon, from its position and its inertial velocity relative to the Moon.

@@ -1,5 +1,7 @@
 //! A world and filters in plain Rust whose errors are known in closed form.
 
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
 use std::sync::Arc;
 
 use cosim::{BaseType, Causality, Port, Scheme, Slave, SlaveError};

@@ -1,0 +1,155 @@
+//! `reproduce`: both papers rerun and held beside what they print.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use super::compare::Progress;
+use super::{Cast, Verdict, note, say, threads};
+use crate::HarnessError;
+use crate::cli::{OptionalChoice, ReproduceArgs, StudyArgs};
+use crate::output::OutputFolder;
+use crate::report::manifest::{Environment, Manifest, ModelFacts};
+use crate::report::{summary, table, timing};
+use crate::reproduce::{CHAPTERS, Laboratory, Notebook, Request, csv, line_text, markdown};
+use crate::run::{Spec, rehearse, run_once};
+use crate::signals::TruthSample;
+use crate::study::{Study, StudyResult};
+
+pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+    let folder = OutputFolder::prepare(&args.out)?;
+    let mut bench = Bench::new(args)?;
+    // Everything is set up once before the first run, so that a mistake shows at once.
+    for request in CHAPTERS.iter().flat_map(|chapter| (chapter.requests)()) {
+        rehearse(&bench.spec(&request)?)?;
+    }
+    let heading = format!("{} runs of each study from seed {}.", args.runs, args.seed);
+    let mut said = 0;
+    let notebook = Notebook::fill(&mut bench, |notebook| {
+        for (_, line) in &notebook.lines[said..] {
+            say(out, &line_text(line))?;
+        }
+        said = notebook.lines.len();
+        write(&folder, notebook, &heading).map(|_| ())
+    })?;
+    for row in &notebook.timings {
+        let cost = table::number(Some(row.nav_us_per_step));
+        say(
+            out,
+            &format!("cost    {} {}, {}: {cost} us/step", row.scenario, row.case, row.filter),
+        )?;
+    }
+
+    let mut files = write(&folder, &notebook, &heading)?;
+    let manifest = bench.manifest(&notebook, &folder, &files);
+    files.push(folder.write("manifest.json", &manifest.render()?)?);
+    let missed = notebook.missed().count();
+    let shown: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
+    say(
+        out,
+        &format!(
+            "\n{missed} of {} required bounds missed; {:.0} s on {} threads",
+            notebook.lines.iter().filter(|(_, line)| line.required).count(),
+            notebook.wall.as_secs_f64(),
+            bench.jobs
+        ),
+    )?;
+    say(out, &format!("Files:   {}", shown.join("\n         ")))?;
+    Ok(if missed > 0 {
+        Verdict::BoundsMissed
+    } else {
+        Verdict::Done
+    })
+}
+
+/// Writes what has been found so far; `timing.csv` alone differs on repeat.
+fn write(folder: &OutputFolder, notebook: &Notebook, heading: &str) -> Result<Vec<PathBuf>, HarnessError> {
+    let mut files = vec![
+        ("reproduce.md".to_owned(), markdown(notebook, heading).into_bytes()),
+        ("reproduce.csv".to_owned(), csv(notebook)?),
+        ("summary.csv".to_owned(), summary::render(&notebook.rows)?),
+        ("timing.csv".to_owned(), timing::render(&notebook.timings)?),
+    ];
+    files.extend(notebook.files.iter().cloned());
+    files
+        .iter()
+        .map(|(name, contents)| folder.write(name, contents))
+        .collect()
+}
+
+/// Runs studies of our FMUs.
+struct Bench<'a> {
+    args: &'a ReproduceArgs,
+    cast: Cast,
+    jobs: usize,
+}
+
+impl<'a> Bench<'a> {
+    fn new(args: &'a ReproduceArgs) -> Result<Self, HarnessError> {
+        Ok(Self {
+            args,
+            cast: Cast::new(&StudyArgs::plain(args.seed, &args.build))?,
+            jobs: threads(args.jobs),
+        })
+    }
+
+    fn spec(&self, request: &Request) -> Result<Spec, HarnessError> {
+        let chosen = |filter| OptionalChoice(Some(filter));
+        let args = StudyArgs {
+            filters: request
+                .filters
+                .iter()
+                .filter_map(|f| f.parse().ok())
+                .map(chosen)
+                .collect(),
+            assignments: request.sets.clone(),
+            variations: request.variations.clone(),
+            ..StudyArgs::plain(self.args.seed, &self.args.build)
+        };
+        self.cast.spec(&args, request.scenario)
+    }
+
+    fn manifest(&self, notebook: &Notebook, folder: &OutputFolder, files: &[PathBuf]) -> Manifest {
+        let models = || self.cast.models.all();
+        let name = |file: &PathBuf| {
+            let within = file.strip_prefix(folder.path()).unwrap_or(file);
+            within.display().to_string()
+        };
+        Manifest {
+            harness_version: env!("CARGO_PKG_VERSION"),
+            models: models().map(|m| (m.name.clone(), ModelFacts::new(m))).collect(),
+            studies: notebook.studies.clone(),
+            files: files.iter().map(name).collect(),
+            environment: Environment::now(self.jobs, notebook.wall, models()),
+        }
+    }
+}
+
+impl Laboratory for Bench<'_> {
+    fn study(&mut self, request: &Request) -> Result<(Study, StudyResult), HarnessError> {
+        let study = Study {
+            spec: self.spec(request)?,
+            runs: self.args.runs.div_ceil(request.one_run_in),
+            jobs: self.jobs,
+            case: request.case.clone(),
+        };
+        let progress = Progress::new(&study, self.args.build.quiet);
+        let result = study.run(|run, rows| progress.finished(run, rows))?;
+        progress.end();
+        Ok((study, result))
+    }
+
+    fn truth(&mut self, request: &Request) -> Result<Vec<TruthSample>, HarnessError> {
+        let spec = self.spec(request)?;
+        let mut samples = Vec::with_capacity(spec.epochs());
+        let report = run_once(&spec, 0, |filter, truth, _| {
+            if filter == 0 {
+                samples.push(*truth);
+            }
+            Ok(())
+        });
+        for failure in report.endings.iter().filter_map(|e| e.failure.as_ref()) {
+            note(&format!("failed: {} run 0: {}", request.case, failure.message));
+        }
+        Ok(samples)
+    }
+}
