@@ -302,14 +302,14 @@ impl EstimateReader {
         let square: Vec<String> = (1..=9)
             .flat_map(|i| (1..=9).map(move |j| format!("cov.p[{i},{j}]")))
             .collect();
-        let mut rows = |names: &dyn Fn(usize, &Residual) -> Vec<String>| {
+        let mut rows = |names: &dyn Fn(&Residual) -> Vec<String>| {
             std::array::from_fn(|i| {
                 let residual = signals.residual[i].as_ref()?;
-                body.reals(offered, &names(i, residual))
+                body.reals(offered, &names(residual))
             })
         };
-        let residual = rows(&|_, residual| residual.names.map(str::to_owned).to_vec());
-        let residual_variance = rows(&|i, _| elements("innov.s", 3 * i + 1..=3 * i + 3));
+        let residual = rows(&|residual| residual.names.map(str::to_owned).to_vec());
+        let residual_variance = rows(&|residual| elements(residual.variance, 1..=3));
         Ok(Self {
             tag,
             position,

@@ -31,10 +31,12 @@ pub(crate) const SCENARIO: Scenario = Scenario {
             Some(Residual {
                 names: ["innov.rho[1]", "innov.rho[2]", "innov.rho[3]"],
                 units: ["m"; 3],
+                variance: "innov.rho_s",
             }),
             Some(Residual {
                 names: ["innov.rho_dot[1]", "innov.rho_dot[2]", "innov.rho_dot[3]"],
                 units: ["m_s"; 3],
+                variance: "innov.rho_dot_s",
             }),
         ],
         nis_rows: 6,

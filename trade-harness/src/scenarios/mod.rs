@@ -53,7 +53,7 @@ pub struct Signals {
     pub chaser: Option<[&'static str; 2]>,
     /// Boolean of the truth that is false for a dropped sample.
     pub measurement_valid: &'static str,
-    /// Innovation of the filter, three rows at a time, in the order of `innov.s`.
+    /// Innovation of the filter, three rows at a time.
     pub residual: [Option<Residual>; 2],
     /// Rows of the measurement that `nis` is taken over.
     pub nis_rows: u32,
@@ -70,6 +70,8 @@ pub struct Residual {
     pub names: [&'static str; 3],
     /// Unit suffixes for column names.
     pub units: [&'static str; 3],
+    /// Name of the vector of their predicted variances.
+    pub variance: &'static str,
 }
 
 impl Residual {
@@ -140,6 +142,7 @@ const VENTING_SIGNALS: Signals = Signals {
         Some(Residual {
             names: ["innov.range", "innov.azimuth", "innov.elevation"],
             units: ["m", "rad", "rad"],
+            variance: "innov.s",
         }),
         None,
     ],

@@ -37,6 +37,7 @@ pub static SCENARIO: Scenario = Scenario {
             Some(Residual {
                 names: ["innov.range", "innov.azimuth", "innov.elevation"],
                 units: ["m", "rad", "rad"],
+                variance: "innov.s",
             }),
             None,
         ],
