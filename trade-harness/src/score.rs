@@ -55,7 +55,7 @@ pub struct Score {
     pub dimension: usize,
     /// The filter offers a covariance, but it is not symmetric, positive definite and finite.
     pub covariance_broken: bool,
-    /// NIS divided by its rows; `None` while coasting.
+    /// NIS divided by its rows; `None` while coasting and for a filter of no dimension.
     pub nis: Option<f64>,
     /// Position error beyond 100 m and, if a sigma is claimed, beyond ten times 3 sigma.
     pub lost: bool,
@@ -89,7 +89,12 @@ pub fn score(scenario: &Scenario, truth: &TruthSample, estimate: &Estimate) -> O
     let measured = truth.measured && !matches!(estimate.status, Some(Status::Coasting | Status::Initialising));
     let finite = |v: Vector3<f64>| v.iter().all(|x| x.is_finite()).then_some(v);
     let residual = estimate.residual.map(|r| r.filter(|_| measured).and_then(finite));
-    let residual_variance = |i: usize| residual[i].and(estimate.residual_variance[i]).and_then(finite);
+    // Without a covariance there is none of the innovation either; what stands under those names is a start value.
+    let has_covariance = estimate.dimension > 0;
+    let residual_variance = |i: usize| {
+        let claimed = residual[i].and(estimate.residual_variance[i]).and_then(finite);
+        claimed.filter(|_| has_covariance)
+    };
 
     let position_variance = turned_variance(0);
     let lost = position.norm() > LOST_BEYOND
@@ -118,7 +123,7 @@ pub fn score(scenario: &Scenario, truth: &TruthSample, estimate: &Estimate) -> O
         covariance_broken,
         nis: estimate
             .nis
-            .filter(|n| measured && n.is_finite())
+            .filter(|n| has_covariance && measured && n.is_finite())
             .map(|n| n / f64::from(scenario.signals.nis_rows)),
         lost,
     })
@@ -246,6 +251,14 @@ mod tests {
         let s = score(&SCENARIOS[0], &truth(), &none).unwrap();
         assert_eq!(s.variances, [None; QUANTITIES]);
         assert_eq!((s.nees, s.nis, s.covariance_broken), (None, None, false));
+        let observer = Estimate {
+            dimension: 0,
+            covariance: None,
+            ..estimate()
+        };
+        let s = score(&SCENARIOS[0], &truth(), &observer).unwrap();
+        assert_eq!((s.nis, s.variances[4]), (None, None));
+        assert_eq!(s.errors[4], Some(Vector3::repeat(0.5)));
     }
 
     #[test]
