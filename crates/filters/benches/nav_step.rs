@@ -1,4 +1,5 @@
-//! Time of one navigation step: every filter at its defaults, and MILTON over the length of its buffer.
+//! Time of one navigation step: every filter at its defaults, MILTON over the length of its buffer, the shapes of
+//! constrained_q; and the share of a law alone, with three measured rows and with six.
 //!
 //! `cargo bench -p filters` prints the time of one step, averaged over the same ten minutes of samples for each filter,
 //! so that the cost of MILTON's rare updates is spread over the steps between them, as in use.
@@ -10,10 +11,13 @@ mod common;
 
 use common::OwnWorld;
 use criterion::{Bencher, Criterion, criterion_group, criterion_main};
-use filters::laws::FILTERS;
-use filters::state::State;
-use filters::tunable::Value;
-use filters::{Navigator, Sample, Settings};
+use filters::laws::{Adaptation, FILTERS, FilterEntry, Law, Setup, Step};
+use filters::state::{Rows, State, Target, TargetMatrix};
+use filters::tunable::{Tunable, Tunables, Value};
+use filters::{Navigator, Sample, Settings, Units};
+use nalgebra::{Matrix3, Vector6};
+use numerics::{Source, stream};
+use rand_distr::{Distribution, StandardNormal};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -55,10 +59,7 @@ fn benches(c: &mut Criterion) {
         group.bench_function(entry.name, |b| per_step(b, &settings, &samples, &start));
     }
     for m_b in [3, 10, 30, 60] {
-        let filter = FILTERS
-            .iter()
-            .position(|f| f.name == "milton")
-            .expect("milton is registered");
+        let filter = position("milton");
         let mut settings = Settings {
             filter,
             ..Settings::default()
@@ -70,7 +71,108 @@ fn benches(c: &mut Criterion) {
             per_step(b, &settings, &samples, &start)
         });
     }
+    for shape in [0, 1] {
+        let filter = position("constrained_q");
+        let mut settings = Settings {
+            filter,
+            ..Settings::default()
+        };
+        for (tunable, chosen) in [
+            ("residuals", Value::Choice(1)),
+            ("whiten", Value::Boolean(true)),
+            ("shape", Value::Choice(shape)),
+        ] {
+            if let Some(value) = settings.tunable_mut("constrained_q", tunable) {
+                *value = chosen;
+            }
+        }
+        let name = ["diagonal", "full"][shape];
+        group.bench_function(format!("constrained_q {name}"), |b| {
+            per_step(b, &settings, &samples, &start)
+        });
+    }
     group.finish();
+
+    let mut group = c.benchmark_group("law_step");
+    group.sample_size(20);
+    for rows in [3, 6] {
+        let steps = steps(rows);
+        for (name, shape) in [("milton", 0), ("constrained_q", 0), ("constrained_q full", 1)] {
+            let fresh = law(&FILTERS[position(name.trim_end_matches(" full"))], rows, shape);
+            group.bench_function(format!("{name} {rows} rows"), |b| law_per_step(b, &fresh, &steps));
+        }
+    }
+    group.finish();
+}
+
+fn position(name: &str) -> usize {
+    FILTERS
+        .iter()
+        .position(|f| f.name == name)
+        .expect("the filter is registered")
+}
+
+/// Steps of three integrators seen through rows of noise.
+fn steps(rows: usize) -> Vec<Step> {
+    let mut g = stream(3, 0, Source::Lidar);
+    let mut normal = || -> f64 { StandardNormal.sample(&mut g) };
+    let (i, half) = (Matrix3::identity(), Matrix3::identity() * 0.5);
+    let mut f = TargetMatrix::identity();
+    f.fixed_view_mut::<3, 3>(0, 3).copy_from(&i);
+    f.fixed_view_mut::<3, 3>(3, 6).copy_from(&i);
+    f.fixed_view_mut::<3, 3>(0, 6).copy_from(&half);
+    (0..STEPS)
+        .map(|_| Step {
+            dt: 1.0,
+            f,
+            h: Rows::from_fn(|row, state| f64::from(row < rows && row == state)),
+            innovation: Vector6::from_fn(|row, _| if row < rows { normal() } else { 0.0 }),
+            correction: Target::zeros(),
+        })
+        .collect()
+}
+
+/// A law for rows of unit noise; `shape` is that of constrained_q.
+fn law(entry: &'static FilterEntry, rows: usize, shape: usize) -> Law {
+    let value = |t: &Tunable| match t.name {
+        "r_w" => Value::Real(1.0),
+        "q_w" => Value::Real(1e-5),
+        "psi0" => Value::Real(1e-3),
+        "s0" => Value::Real(1e-6),
+        "residuals" => Value::Choice(1),
+        "shape" => Value::Choice(shape),
+        _ => t.kind.start(),
+    };
+    let values: Vec<Value> = entry.tunables.iter().map(value).collect();
+    let setup = Setup {
+        tunables: Tunables {
+            law: entry.name,
+            declared: entry.tunables,
+            values: &values,
+            scenario: "none",
+            defaults: &[],
+        },
+        rows,
+        r: Vector6::from_fn(|row, _| f64::from(row < rows)),
+        units: Units::SI,
+        study_seed: 1,
+        run: 0,
+    };
+    (entry.build)(&setup).expect("the tuning is legal")
+}
+
+fn law_per_step(b: &mut Bencher<'_>, fresh: &Law, steps: &[Step]) {
+    b.iter_custom(|iterations| {
+        let clock = Instant::now();
+        for _ in 0..iterations {
+            let mut law = fresh.clone();
+            for step in steps {
+                law.observe(step.clone()).expect("the law learns from noise");
+            }
+            black_box(law.s());
+        }
+        clock.elapsed() / STEPS
+    });
 }
 
 criterion_group!(nav_step, benches);

@@ -1,34 +1,45 @@
-//! The correlation regression solved for the diagonal jerk density itself, q >= 0, as a small conic programme.
+//! The correlation regression solved for the jerk density itself, within bounds, as a small conic programme.
 //!
 //! MILTON keeps its density positive by estimating the square root, which makes a linear problem quadratic: a gain that
 //! vanishes at zero, a sign that does not matter, a linearisation. Here the same normal equations (D^T D, D^T c) are gathered
 //! with a forgetting factor, a prior is added, and
 //!
-//! minimise 1/2 q^T H q - g^T q over s_min^2 <= q <= s_max^2
+//! minimise 1/2 q^T H q - g^T q over s_min^2 I <= Q <= s_max^2 I
 //!
-//! is solved by clarabel. When the solver does not solve, the last q stays and the case is counted.
+//! is solved by clarabel, q being the entries of Q: of a diagonal Q in [`diagonal`], of any symmetric one, in the axes of
+//! the filter, in [`full`]. When the solver does not solve, the last Q stays and the case is counted.
 
-use super::correlation::{DIAGONAL, Regression};
+mod conic;
+mod diagonal;
+mod full;
+
+use super::correlation::{DIAGONAL, Entry, FULL, Regression};
 use super::window::{M_B, RESIDUALS, WHITEN, Window};
-use super::{Adaptation, FilterEntry, Law, Setup, Step};
+use super::{Adaptation, FilterEntry, Law, Search, Setup, Step};
 use crate::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
 use crate::tunable::{Bound, Kind, Preset, Tunable};
-use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 const ROOT_DENSITY: &str = "m/s^2.5";
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "constrained_q",
-    about: "the correlation regression solved for a bounded diagonal jerk density by a conic programme",
+    about: "the correlation regression solved for a bounded jerk density by a conic programme",
     tunables: &[
         M_B,
         RESIDUALS,
         WHITEN,
+        Tunable {
+            name: "shape",
+            about: "jerk density: one number per axis (diagonal) or a symmetric matrix (full)",
+            kind: Kind::Choice {
+                type_name: "QShape",
+                items: &["diagonal", "full"],
+            },
+        },
         Tunable {
             name: "r_w",
             about: "weight of the regression: variance of one entry of the autocorrelation, in the units the law adapts in",
@@ -49,7 +60,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         },
         Tunable {
             name: "s_min",
-            about: "lower bound of s",
+            about: "lower bound of s, in every direction",
             kind: Kind::Real {
                 start: Some(1e-7),
                 unit: ROOT_DENSITY,
@@ -58,7 +69,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         },
         Tunable {
             name: "s_max",
-            about: "upper bound of s",
+            about: "upper bound of s, in every direction",
             kind: Kind::Real {
                 start: Some(1.0),
                 unit: ROOT_DENSITY,
@@ -67,7 +78,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         },
         Tunable {
             name: "s_prior",
-            about: "s before any evidence: the square is the prior's mean of q",
+            about: "s before any evidence, all axes: the square is the prior's mean of q",
             kind: Kind::Real {
                 start: Some(1e-6),
                 unit: ROOT_DENSITY,
@@ -95,8 +106,37 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             about: "open-loop residuals, rows divided by their standard deviations",
             sets: &[("residuals", "consistent"), ("whiten", "true")],
         },
+        Preset {
+            name: "full",
+            about: "as consistent, with a full symmetric density",
+            sets: &[("residuals", "consistent"), ("whiten", "true"), ("shape", "full")],
+        },
     ],
-    search: &[],
+    search: &[
+        // As of MILTON, and on to where the prior decides: only the ratio of r_w to s_spread^4 matters.
+        Search {
+            tunable: "r_w",
+            low: 1e-10,
+            high: 1e8,
+        },
+        // An update comes every m_b + 1 samples, a run has some hundreds.
+        Search {
+            tunable: "memory",
+            low: 1.0,
+            high: 1e3,
+        },
+        Search {
+            tunable: "s_prior",
+            low: 1e-9,
+            high: 1e-3,
+        },
+        // From just above s_min, where Q is all but fixed.
+        Search {
+            tunable: "s_max",
+            low: 2e-7,
+            high: 1e-1,
+        },
+    ],
     only: None,
     build,
 };
@@ -114,18 +154,19 @@ fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
         });
     }
     let (prior, spread) = (density("s_prior")?, density("s_spread")?);
-    let prior_information = Matrix3::identity() / (spread * spread);
+    let full = t.choice("shape")? == 1;
     Ok(ConstrainedQ {
         window: Window::new(setup)?,
         r_w: t.real("r_w")?,
         fade: (-1.0 / t.real("memory")?).exp(),
         lower,
         upper,
-        prior_information,
-        prior_score: prior_information * Vector3::repeat(prior),
-        information: Matrix3::zeros(),
-        score: Vector3::zeros(),
-        q: Vector3::repeat(prior.clamp(lower, upper)),
+        evidence: if full {
+            Evidence::Full(Box::new(Fit::new(&FULL, prior, spread)))
+        } else {
+            Evidence::Diagonal(Fit::new(&DIAGONAL, prior, spread))
+        },
+        q: Matrix3::identity() * prior.clamp(lower, upper),
         updates: 0,
         unsolved: 0,
     }
@@ -139,112 +180,92 @@ pub struct ConstrainedQ {
     r_w: f64,
     /// Factor on old evidence at each update.
     fade: f64,
-    /// Bounds of q.
+    /// Bounds of the eigenvalues of Q.
     lower: f64,
     upper: f64,
-    prior_information: Matrix3<f64>,
-    prior_score: Vector3<f64>,
-    /// Gathered D^T D / r_w.
-    information: Matrix3<f64>,
-    /// Gathered D^T c / r_w.
-    score: Vector3<f64>,
-    /// Density in use, the diagonal of Q.
-    q: Vector3<f64>,
+    evidence: Evidence,
+    /// Density in use.
+    q: Matrix3<f64>,
     updates: i32,
     unsolved: i32,
 }
 
-impl ConstrainedQ {
-    fn learn(&mut self, regression: &Regression<3>) {
-        self.information = self.information * self.fade + regression.dt_d / self.r_w;
-        self.score = self.score * self.fade + regression.dt_c / self.r_w;
-        let h = self.information + self.prior_information;
-        let g = self.score + self.prior_score;
-        match minimise(&h, &g, self.lower, self.upper) {
-            Ok(q) => {
-                self.q = q;
-                self.updates += 1;
-            }
-            Err(_) => self.unsolved += 1,
-        }
-    }
+/// What the regressions have told of the density, according to its shape.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+enum Evidence {
+    Diagonal(Fit<3>),
+    Full(Box<Fit<6>>),
 }
 
-/// The q between `lower` and `upper` that minimises 1/2 q^T h q - g^T q.
-///
-/// * `h`: 3x3, symmetric, positive definite.
-///
-/// # Errors
-/// The solver's status when it is not a solution, `None` when it refused the problem.
-fn minimise(h: &Matrix3<f64>, g: &Vector3<f64>, lower: f64, upper: f64) -> Result<Vector3<f64>, Option<SolverStatus>> {
-    // Densities span many decades: in u = q sqrt(h_ii) the Hessian has a unit diagonal.
-    let scale = h.diagonal().map(f64::sqrt);
-    if !scale.iter().all(|s| s.is_finite() && *s > 0.0) || !g.iter().all(|v| v.is_finite()) {
-        return Err(None);
-    }
-    // And the cost is divided by the size of its linear term, which the solver's tolerances are relative to.
-    let linear: Vec<f64> = (0..3).map(|i| -g[i] / scale[i]).collect();
-    let size = linear.iter().fold(1e-300_f64, |m, v| m.max(v.abs()));
-    let entry = |i: usize, j: usize| h[(i, j)] / (scale[i] * scale[j]);
-    let cost = CscMatrix::from(&[
-        [1.0, entry(0, 1), entry(0, 2)],
-        [0.0, 1.0, entry(1, 2)],
-        [0.0, 0.0, 1.0],
-    ]);
-    let rows = CscMatrix::from(&[
-        [-1.0, 0.0, 0.0],
-        [0.0, -1.0, 0.0],
-        [0.0, 0.0, -1.0],
-        [1.0, 0.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [0.0, 0.0, 1.0],
-    ]);
-    let linear: Vec<f64> = linear.iter().map(|v| v / size).collect();
-    let bound = |value: f64| (0..3).map(move |i| value * scale[i] / size);
-    let limits: Vec<f64> = bound(-lower).chain(bound(upper)).collect();
-    let settings = DefaultSettings {
-        verbose: false,
-        ..DefaultSettings::default()
-    };
-    let mut solver =
-        DefaultSolver::new(&cost, &linear, &rows, &limits, &[NonnegativeConeT(6)], settings).map_err(|_| None)?;
-    solver.solve();
-    match solver.solution.status {
-        SolverStatus::Solved | SolverStatus::AlmostSolved => {
-            let q = Vector3::from_fn(|i, _| (solver.solution.x[i] * size / scale[i]).clamp(lower, upper));
-            if q.iter().all(|v| v.is_finite()) {
-                Ok(q)
-            } else {
-                Err(Some(solver.solution.status))
-            }
+/// Evidence for K entries of the density.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Fit<const K: usize> {
+    prior_information: SMatrix<f64, K, K>,
+    prior_score: SVector<f64, K>,
+    /// Gathered D^T D / r_w.
+    information: SMatrix<f64, K, K>,
+    /// Gathered D^T c / r_w.
+    score: SVector<f64, K>,
+}
+
+impl<const K: usize> Fit<K> {
+    /// Nothing but the prior: Q about `mean` I, the standard deviation of an entry on the diagonal being `spread`.
+    ///
+    /// An entry off the diagonal deviates by `spread` / sqrt 2, so that the prior is the same in any axes.
+    fn new(entries: &[Entry; K], mean: f64, spread: f64) -> Self {
+        let weight = |(i, j): Entry| if i == j { 1.0 } else { 2.0 } / (spread * spread);
+        let prior_information = SMatrix::from_diagonal(&SVector::from(entries.map(weight)));
+        let prior_mean = SVector::from(entries.map(|(i, j)| if i == j { mean } else { 0.0 }));
+        Self {
+            prior_information,
+            prior_score: prior_information * prior_mean,
+            information: SMatrix::zeros(),
+            score: SVector::zeros(),
         }
-        status @ (SolverStatus::Unsolved
-        | SolverStatus::PrimalInfeasible
-        | SolverStatus::DualInfeasible
-        | SolverStatus::AlmostPrimalInfeasible
-        | SolverStatus::AlmostDualInfeasible
-        | SolverStatus::MaxIterations
-        | SolverStatus::MaxTime
-        | SolverStatus::NumericalError
-        | SolverStatus::InsufficientProgress
-        | SolverStatus::CallbackTerminated) => Err(Some(status)),
+    }
+
+    /// Adds a regression to what has been gathered, faded.
+    ///
+    /// * returns: H and g of the cost 1/2 q^T H q - g^T q.
+    fn gather(&mut self, regression: &Regression<K>, fade: f64, r_w: f64) -> (SMatrix<f64, K, K>, SVector<f64, K>) {
+        self.information = self.information * fade + regression.dt_d / r_w;
+        self.score = self.score * fade + regression.dt_c / r_w;
+        (self.information + self.prior_information, self.score + self.prior_score)
     }
 }
 
 impl Adaptation for ConstrainedQ {
     fn process_noise(&self, dt: f64) -> TargetMatrix {
-        jerk::process_noise(&self.q, dt)
+        match self.evidence {
+            Evidence::Diagonal(_) => jerk::process_noise(&self.q.diagonal(), dt),
+            Evidence::Full(_) => jerk::process_noise_full(&self.q, dt),
+        }
     }
 
     fn observe(&mut self, step: Step) -> Result<(), FilterError> {
-        if let Some(regression) = self.window.push(&step, &DIAGONAL) {
-            self.learn(&regression);
+        let answer = match &mut self.evidence {
+            Evidence::Diagonal(fit) => self.window.push(&step, &DIAGONAL).map(|regression| {
+                let (h, g) = fit.gather(&regression, self.fade, self.r_w);
+                diagonal::minimise(&h, &g, self.lower, self.upper).map(|q| Matrix3::from_diagonal(&q))
+            }),
+            Evidence::Full(fit) => self.window.push(&step, &FULL).map(|regression| {
+                let (h, g) = fit.gather(&regression, self.fade, self.r_w);
+                full::minimise(&h, &g, self.lower, self.upper)
+            }),
+        };
+        match answer {
+            Some(Ok(q)) => {
+                self.q = q;
+                self.updates += 1;
+            }
+            Some(Err(_)) => self.unsolved += 1,
+            None => {}
         }
         Ok(())
     }
 
     fn s(&self) -> Vector3<f64> {
-        self.q.map(f64::sqrt)
+        self.q.diagonal().map(f64::sqrt)
     }
 
     fn updates(&self) -> i32 {
@@ -263,57 +284,181 @@ impl Adaptation for ConstrainedQ {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::laws::correlation::tests::{oblique, watched};
+    use crate::laws::correlation::{Observation, Sampled};
+    use crate::tunable::{Tunables, Value};
+    use crate::units::Units;
+    use nalgebra::{Rotation3, Vector6};
 
-    /// The minimum over a box by trying every set of active bounds: slow, and certain in three dimensions.
-    fn by_enumeration(h: &Matrix3<f64>, g: &Vector3<f64>, lower: f64, upper: f64) -> Vector3<f64> {
-        let cost = |q: &Vector3<f64>| 0.5 * q.dot(&(h * q)) - g.dot(q);
-        let mut best: Option<Vector3<f64>> = None;
-        for code in 0..27 {
-            let choice = [code % 3, code / 3 % 3, code / 9];
-            let (mut a, mut b) = (*h, *g);
-            for i in 0..3 {
-                if choice[i] != 0 {
-                    a.set_row(i, &Matrix3::identity().row(i));
-                    b[i] = if choice[i] == 1 { lower } else { upper };
-                }
-            }
-            let Some(q) = a.lu().solve(&b) else { continue };
-            let slack = 1e-9 * upper;
-            let inside = q.iter().all(|v| (lower - slack..=upper + slack).contains(v));
-            if inside && best.is_none_or(|old| cost(&q) < cost(&old)) {
-                best = Some(q);
-            }
-        }
-        best.unwrap()
-    }
-
-    #[test]
-    fn minimum_agrees_with_enumeration_of_the_active_bounds() {
-        let h = Matrix3::new(4.0, 1.0, -0.5, 1.0, 3.0, 0.8, -0.5, 0.8, 2.0);
-        for unit in [1.0, 1e-6, 1e-12] {
-            for g in [[1.0, 2.0, 3.0], [-1.0, 2.0, 0.1], [-3.0, -1.0, -2.0], [40.0, 1.0, -9.0]] {
-                let (h, g) = (h / (unit * unit), Vector3::from(g) / unit);
-                let (lower, upper) = (0.01 * unit, 1.2 * unit);
-                let ours = minimise(&h, &g, lower, upper).unwrap();
-                let expected = by_enumeration(&h, &g, lower, upper);
-                // The solver's gap of 1e-8 leaves an error of its square root in a bounded coordinate at most.
-                assert!(
-                    (ours - expected).amax() < 1e-4 * unit,
-                    "unit {unit}: {ours} and {expected}"
-                );
-            }
+    /// The law with tunables of these names set, the last of a name, the others at their start.
+    fn law(rows: usize, changes: &[(&str, Value)]) -> ConstrainedQ {
+        let value = |t: &Tunable| {
+            let change = changes.iter().rfind(|(name, _)| *name == t.name);
+            change.map_or(t.kind.start(), |(_, value)| *value)
+        };
+        let values: Vec<Value> = ENTRY.tunables.iter().map(value).collect();
+        let built = (ENTRY.build)(&Setup {
+            tunables: Tunables {
+                law: ENTRY.name,
+                declared: ENTRY.tunables,
+                values: &values,
+                scenario: "none",
+                defaults: &[],
+            },
+            rows,
+            r: Vector6::from_fn(|row, _| if row < rows { 0.09 } else { 0.0 }),
+            units: Units::SI,
+            study_seed: 1,
+            run: 0,
+        });
+        match built.unwrap() {
+            Law::ConstrainedQ(law) => *law,
+            other => panic!("built {other:?}"),
         }
     }
 
+    /// A sample as the filter hands it over: the first `rows` of them, not yet divided by their standard deviation.
+    fn step<const M: usize>(sampled: &Sampled<M>, rows: usize, sigma: f64) -> Step {
+        Step {
+            dt: sampled.dt,
+            f: sampled.f,
+            h: (sampled.h.rows(0, rows) * sigma).fixed_resize(0.0),
+            innovation: (sampled.residual.rows(0, rows) * sigma).fixed_resize(0.0),
+            correction: sampled.correction,
+        }
+    }
+
+    /// What a law that never forgets finds in a world of this density, three rows of the position being measured.
+    fn found(density: &Matrix3<f64>, changes: &[(&str, Value)], count: usize) -> ConstrainedQ {
+        let (rows, sigma) = (oblique(), 0.3);
+        let mut ours = law(
+            3,
+            &[
+                &[
+                    ("m_b", Value::Integer(8)),
+                    ("residuals", Value::Choice(1)),
+                    ("whiten", Value::Boolean(true)),
+                    ("r_w", Value::Real(1.0)),
+                    ("memory", Value::Real(1e9)),
+                    ("s_spread", Value::Real(1e3)),
+                    ("s_max", Value::Real(10.0)),
+                ],
+                changes,
+            ]
+            .concat(),
+        );
+        for sampled in watched(&rows, &Vector3::repeat(sigma), density, 1, count) {
+            ours.observe(step(&sampled, 3, sigma)).unwrap();
+        }
+        assert_eq!((ours.unsolved, ours.skipped()), (0, 0));
+        ours
+    }
+
+    const FULL_SHAPE: (&str, Value) = ("shape", Value::Choice(1));
+
+    /// An anisotropic density whose axes are not those of the filter.
+    fn turned() -> Matrix3<f64> {
+        Matrix3::new(2.0, -0.9, 0.3, -0.9, 1.0, 0.2, 0.3, 0.2, 0.4)
+    }
+
     #[test]
-    fn a_problem_without_sense_is_an_error_and_not_a_panic() {
-        let g = Vector3::repeat(1.0);
-        assert!(minimise(&Matrix3::zeros(), &g, 0.0, 1.0).is_err());
-        assert!(minimise(&Matrix3::identity(), &Vector3::repeat(f64::NAN), 0.0, 1.0).is_err());
-        // Not convex: whatever the solver says of it, it must not be taken for a solution with a NaN in it.
-        let saddle = Matrix3::new(1.0, 5.0, 0.0, 5.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-        if let Ok(q) = minimise(&saddle, &g, 0.0, 1.0) {
-            assert!(q.iter().all(|v| (0.0..=1.0).contains(v)));
+    fn only_the_full_shape_finds_a_density_whose_axes_are_turned() {
+        let truth = turned();
+        let full = found(&truth, &[FULL_SHAPE], 40_000);
+        assert!((full.q - truth).amax() < 0.15, "{}", full.q);
+        let s = truth.diagonal().map(f64::sqrt);
+        assert!((full.s() - s).amax() < 0.1, "{}", full.s());
+        let diagonal = found(&truth, &[], 40_000);
+        assert!(
+            (diagonal.q.diagonal() - truth.diagonal()).amax() < 0.15,
+            "{}",
+            diagonal.q
+        );
+        // Both say so through the process noise that they hand to the filter: here of v_x and v_y.
+        let cross = |law: &ConstrainedQ| law.process_noise(1.0)[(3, 4)] * 3.0;
+        assert!((cross(&full) + 0.9).abs() < 0.15, "{}", cross(&full));
+        assert!(cross(&diagonal).abs() < 1e-15, "{}", cross(&diagonal));
+    }
+
+    #[test]
+    fn bounds_hold_in_every_direction() {
+        // Its eigenvalues are about 0.1, 0.7 and 2.6.
+        let changes = [FULL_SHAPE, ("s_min", Value::Real(0.6)), ("s_max", Value::Real(1.1))];
+        let eigen = found(&turned(), &changes, 3000).q.symmetric_eigenvalues();
+        assert!((eigen.min() - 0.36).abs() < 1e-9, "{eigen}");
+        assert!((eigen.max() - 1.21).abs() < 1e-9, "{eigen}");
+    }
+
+    #[test]
+    fn the_prior_is_what_is_believed_without_evidence_and_the_same_in_any_axes() {
+        let expected = Matrix3::identity() * 0.04;
+        let silent = |q: &Matrix3<f64>| (q - expected).amax() < 1e-9;
+        let nothing = Regression {
+            dt_d: SMatrix::zeros(),
+            dt_c: SVector::zeros(),
+        };
+        let (h, g) = Fit::<3>::new(&DIAGONAL, 0.04, 0.5).gather(&nothing, 0.9, 1.0);
+        let q = diagonal::minimise(&h, &g, 1e-4, 10.0).unwrap();
+        assert!(silent(&Matrix3::from_diagonal(&q)), "{q}");
+        let nothing = Regression {
+            dt_d: SMatrix::zeros(),
+            dt_c: SVector::zeros(),
+        };
+        let (h, g) = Fit::<6>::new(&FULL, 0.04, 0.5).gather(&nothing, 0.9, 1.0);
+        let q = full::minimise(&h, &g, 1e-4, 10.0).unwrap();
+        assert!(silent(&q), "{q}");
+        let cost = |q: &Matrix3<f64>| {
+            let q = Vector6::from(FULL.map(|entry| q[entry]));
+            0.5 * q.dot(&(h * q)) - g.dot(&q)
+        };
+        let turn = Rotation3::from_euler_angles(0.4, -0.9, 1.3);
+        let other = turn * turned() * turn.transpose();
+        assert!((cost(&other) - cost(&turned())).abs() < 1e-12, "{}", cost(&other));
+    }
+
+    #[test]
+    fn a_programme_without_an_answer_keeps_the_last_density_and_is_counted() {
+        for shape in [0, 1] {
+            let mut ours = law(
+                3,
+                &[
+                    ("shape", Value::Choice(shape)),
+                    ("m_b", Value::Integer(3)),
+                    ("r_w", Value::Real(1.0)),
+                    ("s_prior", Value::Real(0.2)),
+                ],
+            );
+            for mut sampled in watched(&oblique(), &Vector3::repeat(0.3), &turned(), 2, 7) {
+                sampled.residual *= 1e200;
+                ours.observe(step(&sampled, 3, 1.0)).unwrap();
+            }
+            assert_eq!((ours.updates(), ours.unsolved()), (0, 1), "shape {shape}");
+            assert!((ours.q - Matrix3::identity() * 0.04).amax() < 1e-15, "shape {shape}");
+        }
+    }
+
+    #[test]
+    fn a_saved_law_of_either_shape_and_either_number_of_rows_goes_on_bit_for_bit() {
+        let whole = Observation::<6>::identity();
+        for (rows, shape) in [(3, 0), (3, 1), (6, 0), (6, 1)] {
+            let changes = [
+                ("shape", Value::Choice(shape)),
+                ("m_b", Value::Integer(4)),
+                ("r_w", Value::Real(1.0)),
+            ];
+            let mut ours = law(rows, &changes);
+            let steps = watched(&whole, &Vector6::repeat(0.3), &turned(), 3, 60);
+            let steps: Vec<Step> = steps.iter().map(|sampled| step(sampled, rows, 0.3)).collect();
+            let (early, late) = steps.split_at(31);
+            early.iter().for_each(|step| ours.observe(step.clone()).unwrap());
+            let bytes = postcard::to_allocvec(&ours).unwrap();
+            let mut restored: ConstrainedQ = postcard::from_bytes(&bytes).unwrap();
+            for step in late {
+                ours.observe(step.clone()).unwrap();
+                restored.observe(step.clone()).unwrap();
+            }
+            assert_eq!(ours.q, restored.q, "{rows} rows, shape {shape}");
+            assert!(ours.updates() > 5 && ours.q != Matrix3::identity() * ours.q[(0, 0)]);
         }
     }
 }

@@ -310,10 +310,10 @@ fn inner(a: &TargetMatrix, b: &TargetMatrix, vech: bool) -> f64 {
 
 #[cfg(test)]
 #[allow(clippy::needless_range_loop, reason = "indices are the paper's")]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use nalgebra::{DVector, Vector3, Vector6};
-    use numerics::{Generator, Source, expm, stream};
+    use numerics::{Generator, Source, expm, spd, stream};
     use rand_distr::{Distribution, StandardNormal};
 
     const M_B: usize = 5;
@@ -572,20 +572,19 @@ mod tests {
         assert_eq!(regression(&samples[1..], M_B, &r, false, &DIAGONAL), None);
     }
 
-    /// A Kalman filter with a wrong Q watches three integrators driven by a known jerk density. The regression on
-    /// open-loop residuals must find that density without bias; on the filter's own innovations it need not.
+    /// A Kalman filter with a wrong Q watches three integrators driven by jerk of a known density.
     ///
-    /// * `h`, `sigma`: rows of the measurement and their noise, by which the rows are divided.
+    /// * `h`, `sigma`: rows of the measurement and their noise, by which rows and residuals are divided.
     /// * `density`: 3x3.
-    /// * returns: mean of the estimated entries, and its standard error from independent batches.
-    fn recovered_density<const M: usize, const K: usize>(
+    /// * returns: `count` samples, a second apart.
+    pub(in crate::laws) fn watched<const M: usize>(
         h: &Observation<M>,
         sigma: &SVector<f64, M>,
         density: &Matrix3<f64>,
-        entries: &[Entry; K],
-        open_loop: bool,
-    ) -> (SVector<f64, K>, SVector<f64, K>) {
-        let (m_b, dt) = (8, 1.0);
+        run: u64,
+        count: usize,
+    ) -> Vec<Sampled<M>> {
+        let dt = 1.0;
         let mut a = TargetMatrix::zeros();
         for i in 0..6 {
             a[(i, i + 3)] = 1.0;
@@ -594,50 +593,61 @@ mod tests {
         let h = SMatrix::<f64, M, M>::from_diagonal(&sigma.map(|s| 1.0 / s)) * h;
         let r = SMatrix::<f64, M, M>::identity();
         let q_filter = jerk::process_noise_full(&(density * 9.0), dt);
-        let draw = numerics::spd::cholesky(&jerk::process_noise_full(density, dt)).unwrap();
+        let draw = spd::cholesky(&jerk::process_noise_full(density, dt)).unwrap();
+        let g = &mut stream(8, run, Source::Lidar);
+        let (mut e, mut p) = (Target::zeros(), TargetMatrix::identity());
+        let mut step = || {
+            e = f * e + draw * Target::from_fn(|_, _| normal(g));
+            p = f * p * f.transpose() + q_filter;
+            let residual = h * e + SVector::<f64, M>::from_fn(|_, _| normal(g));
+            let l = spd::cholesky(&(h * p * h.transpose() + r)).unwrap();
+            let mut gain = p * h.transpose();
+            for mut row in gain.row_iter_mut() {
+                let solved = spd::cholesky_solve(&l, &row.transpose());
+                row.copy_from(&solved.transpose());
+            }
+            let correction = gain * residual;
+            e -= correction;
+            p = spd::symmetrised(&(p - gain * h * p));
+            Sampled {
+                dt,
+                f,
+                h,
+                residual,
+                correction,
+            }
+        };
+        (0..count).map(|_| step()).collect()
+    }
+
+    /// What the regression finds in the world of [`watched`]. On open-loop residuals it must find the density without
+    /// bias; on the filter's own innovations it need not.
+    ///
+    /// * returns: mean of the estimated entries, and its standard error from independent batches.
+    fn recovered_density<const M: usize, const K: usize>(
+        h: &Observation<M>,
+        sigma: &SVector<f64, M>,
+        density: &Matrix3<f64>,
+        entries: &[Entry; K],
+        open_loop: bool,
+    ) -> (SVector<f64, K>, SVector<f64, K>) {
+        let m_b = 8;
         let batches: Vec<SVector<f64, K>> = (0..30)
             .map(|batch| {
-                let g = &mut stream(8, batch, Source::Lidar);
-                let (mut e, mut p) = (Target::zeros(), TargetMatrix::identity());
-                let mut samples = Vec::new();
+                let samples = watched(h, sigma, density, batch, 4000);
                 let (mut dt_d, mut dt_c) = (SMatrix::<f64, K, K>::zeros(), SVector::<f64, K>::zeros());
-                for _ in 0..4000 {
-                    e = f * e + draw * Target::from_fn(|_, _| normal(g));
-                    p = f * p * f.transpose() + q_filter;
-                    let residual = h * e + SVector::<f64, M>::from_fn(|_, _| normal(g));
-                    let l = numerics::spd::cholesky(&(h * p * h.transpose() + r)).unwrap();
-                    let mut gain = p * h.transpose();
-                    for mut row in gain.row_iter_mut() {
-                        let solved = numerics::spd::cholesky_solve(&l, &row.transpose());
-                        row.copy_from(&solved.transpose());
-                    }
-                    let correction = gain * residual;
-                    e -= correction;
-                    p = numerics::spd::symmetrised(&(p - gain * h * p));
-                    samples.push(Sampled {
-                        dt,
-                        f,
-                        h,
-                        residual,
-                        correction,
-                    });
-                    if samples.len() == 2 * m_b + 1 {
-                        let found = regression(&samples, m_b, &r, open_loop, entries).unwrap();
-                        dt_d += found.dt_d;
-                        dt_c += found.dt_c;
-                        samples.drain(..m_b + 1);
-                    }
+                for window in samples.windows(2 * m_b + 1).step_by(m_b + 1) {
+                    let found = regression(window, m_b, &SMatrix::identity(), open_loop, entries).unwrap();
+                    dt_d += found.dt_d;
+                    dt_c += found.dt_c;
                 }
-                numerics::spd::cholesky_solve(&numerics::spd::cholesky(&dt_d).unwrap(), &dt_c)
+                spd::cholesky_solve(&spd::cholesky(&dt_d).unwrap(), &dt_c)
             })
             .collect();
         let n = batches.len() as f64;
         let mean = batches.iter().sum::<SVector<f64, K>>() / n;
-        let variance = batches
-            .iter()
-            .map(|b| (b - mean).map(|v| v * v))
-            .sum::<SVector<f64, K>>()
-            / (n - 1.0);
+        let square = |b: &SVector<f64, K>| (b - mean).map(|v| v * v);
+        let variance = batches.iter().map(square).sum::<SVector<f64, K>>() / (n - 1.0);
         (mean, (variance / n).map(f64::sqrt))
     }
 
@@ -664,7 +674,7 @@ mod tests {
     }
 
     /// Three rows of the position that are not orthogonal.
-    fn oblique() -> Observation<3> {
+    pub(in crate::laws) fn oblique() -> Observation<3> {
         let mut h = Observation::zeros();
         h.fixed_view_mut::<3, 3>(0, 0)
             .copy_from(&Matrix3::new(1.0, 0.2, 0.0, -0.1, 0.8, 0.3, 0.0, 0.1, 1.2));

@@ -1,6 +1,6 @@
 //! Dynamic model compensation: the acceleration state is a first-order Gauss-Markov process.
 
-use super::{AccelerationModel, Adaptation, FilterEntry, Law, Setup, Step};
+use super::{AccelerationModel, Adaptation, FilterEntry, Law, Search, Setup, Step};
 use crate::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
@@ -36,7 +36,19 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         about: "the scenario's own sigma and correlation time",
         sets: &[],
     }],
-    search: &[],
+    search: &[
+        Search {
+            tunable: "sigma",
+            low: 1e-8,
+            high: 1e-3,
+        },
+        // From the sampling period to much longer than an orbit's slow disturbances.
+        Search {
+            tunable: "time_constant",
+            low: 1.0,
+            high: 1e4,
+        },
+    ],
     only: None,
     build,
 };

@@ -1,6 +1,6 @@
 //! No adaptation: an acceleration state driven by jerk of constant density. The yardstick for every other law.
 
-use super::{Adaptation, FilterEntry, Law, Setup, Step};
+use super::{Adaptation, FilterEntry, Law, Search, Setup, Step};
 use crate::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
@@ -32,7 +32,14 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             sets: &[("s", "1e-6")],
         },
     ],
-    search: &[],
+    search: &[
+        // Vents are worth 1e-7 to 1e-6, a disturbance of 1e-5 m/s2 that varies over 1000 s about 5e-7.
+        Search {
+            tunable: "s",
+            low: 1e-9,
+            high: 1e-3,
+        },
+    ],
     only: None,
     build,
 };

@@ -11,7 +11,7 @@
 
 use super::correlation::{DIAGONAL, Regression};
 use super::window::{M_B, READING, RESIDUALS, WHITEN, Window};
-use super::{Adaptation, FilterEntry, Law, Setup, Step};
+use super::{Adaptation, FilterEntry, Law, Search, Setup, Step};
 use crate::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
@@ -87,7 +87,30 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             sets: &[("whiten", "true")],
         },
     ],
-    search: &[],
+    search: &[
+        // Of the fourth power of lengths: (1 m)^4 of a LiDAR, (1e-2 m)^4 of a metrology.
+        Search {
+            tunable: "r_w",
+            low: 1e-10,
+            high: 1e4,
+        },
+        // Of s squared, where s is 1e-9 to 1e-2 in SI and 1e5 times as much in the units of a halo orbit.
+        Search {
+            tunable: "q_w",
+            low: 1e-18,
+            high: 1.0,
+        },
+        Search {
+            tunable: "psi0",
+            low: 1e-16,
+            high: 1e2,
+        },
+        Search {
+            tunable: "s0",
+            low: 1e-12,
+            high: 1e-3,
+        },
+    ],
     only: None,
     build,
 };

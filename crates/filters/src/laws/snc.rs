@@ -1,6 +1,6 @@
 //! State noise compensation: no acceleration state, white acceleration of constant density.
 
-use super::{AccelerationModel, Adaptation, FilterEntry, Law, Setup, Step};
+use super::{AccelerationModel, Adaptation, FilterEntry, Law, Search, Setup, Step};
 use crate::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
@@ -25,7 +25,14 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         about: "the scenario's own q",
         sets: &[],
     }],
-    search: &[],
+    search: &[
+        // A vent is worth about 5e-5, a disturbance of 1e-5 m/s2 that varies over 1000 s about 4e-4.
+        Search {
+            tunable: "q",
+            low: 1e-7,
+            high: 1e-2,
+        },
+    ],
     only: None,
     build,
 };

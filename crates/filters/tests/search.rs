@@ -1,0 +1,51 @@
+//! What a search for the best tuning may vary must be legal wherever the filter has a meaning.
+
+#![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
+
+use filters::laws::FILTERS;
+use filters::scenarios::SCENARIOS;
+use filters::tunable::{Kind, Value};
+use filters::{Navigator, Settings};
+
+#[test]
+fn every_corner_of_a_search_is_a_legal_tuning() {
+    for (filter, entry) in FILTERS.iter().enumerate() {
+        for (scenario, world) in SCENARIOS.iter().enumerate() {
+            if entry.only.is_some_and(|only| only.measures != world.measures) {
+                continue;
+            }
+            for corner in 0..1_u32 << entry.search.len() {
+                let mut settings = Settings {
+                    scenario,
+                    filter,
+                    ..Settings::default()
+                };
+                for (i, range) in entry.search.iter().enumerate() {
+                    assert!(
+                        0.0 < range.low && 10.0 * range.low <= range.high,
+                        "{}.{}: not decades",
+                        entry.name,
+                        range.tunable
+                    );
+                    let declared = entry.tunables.iter().find(|t| t.name == range.tunable).unwrap();
+                    assert!(
+                        matches!(declared.kind, Kind::Real { .. }),
+                        "{}.{}",
+                        entry.name,
+                        range.tunable
+                    );
+                    let end = if corner >> i & 1 == 0 { range.low } else { range.high };
+                    *settings.tunable_mut(entry.name, range.tunable).unwrap() = Value::Real(end);
+                }
+                let built = Navigator::new(&settings, 0.0);
+                assert!(
+                    built.is_ok(),
+                    "{} in {}, corner {corner}: {:?}",
+                    entry.name,
+                    world.name,
+                    built.err()
+                );
+            }
+        }
+    }
+}
