@@ -153,7 +153,7 @@ fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
             permitted: format!("less than constrained_q.s_max = {}", t.real("s_max")?),
         });
     }
-    let (prior, spread) = (density("s_prior")?, density("s_spread")?);
+    let (prior, spread) = (density("s_prior")? * setup.off_nominal, density("s_spread")?);
     let full = t.choice("shape")? == 1;
     Ok(ConstrainedQ {
         window: Window::new(setup)?,
@@ -286,6 +286,7 @@ mod tests {
     use super::*;
     use crate::laws::correlation::tests::{oblique, watched};
     use crate::laws::correlation::{Observation, Sampled};
+    use crate::scenarios::Measures;
     use crate::tunable::{Tunables, Value};
     use crate::units::Units;
     use nalgebra::{Rotation3, Vector6};
@@ -307,7 +308,9 @@ mod tests {
             },
             rows,
             r: Vector6::from_fn(|row, _| if row < rows { 0.09 } else { 0.0 }),
+            measures: Measures::RangeAndBearing,
             units: Units::SI,
+            off_nominal: 1.0,
             study_seed: 1,
             run: 0,
         });

@@ -118,7 +118,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
 fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
     let t = &setup.tunables;
     let psi0 = t.real("psi0")?;
-    let s0 = t.real("s0")? / setup.units.root_jerk_density();
+    let s0 = t.real("s0")? / setup.units.root_jerk_density() * setup.off_nominal.sqrt();
     let mut generator = stream(setup.study_seed, setup.run, Source::AdaptationStart);
     let s = Vector3::from_fn(|_, _| {
         let w: f64 = StandardNormal.sample(&mut generator);

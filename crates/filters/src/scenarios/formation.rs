@@ -20,10 +20,11 @@ pub(super) const ENTRY: ScenarioEntry = ScenarioEntry {
         ("snc.q", 1e-5),
         ("dmc.sigma", 1e-5),
         ("dmc.time_constant", 1000.0),
-        ("constrained_q.r_w", 1.0),
+        // Weights of the regression that let s move at all: an autocorrelation of millimetres is small.
+        ("constrained_q.r_w", 1e-12),
         ("milton.psi0", 1e-12),
         ("milton.q_w", 1e-14),
-        ("milton.r_w", 1.0),
+        ("milton.r_w", 1e-12),
         ("milton.s0", 1e-6),
         ("rbfnn_aekf.learning_rate", LEARNING_RATE),
         ("rbfnn_aekf.relaxation", 1.0),
