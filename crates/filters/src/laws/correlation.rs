@@ -9,7 +9,7 @@
 //!
 //! `Z_w = O+_{w+1} Y_{w+1} - F_w O+_w Y_w = sum_l A_w[l] eta_l + sum_j B_w[j] nu_j`
 //!
-//! with w the older window's first sample, O+ = M^-1 O^T the pseudo-inverse, eta_l the measurement noise of sample l and
+//! with w the older window's first sample, O+ = (O^T O)^-1 O^T the pseudo-inverse, eta_l the measurement noise of sample l and
 //! nu_j the process noise of the step from j to j + 1. A_w and B_w follow from that definition (Eqs. 22 and 23 print some
 //! indices and transposes wrongly); tests check both by perturbing one sample. In the paper's indices k = w + m_b, A_i of
 //! k is `a[k - i]` and B_j of k is `b[k - j]`.

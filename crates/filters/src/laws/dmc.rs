@@ -42,7 +42,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             low: 1e-8,
             high: 1e-3,
         },
-        // From the sampling period to much longer than an orbit's slow disturbances.
+        // From the sampling period to beyond the slowest disturbance.
         Search {
             tunable: "time_constant",
             low: 1.0,

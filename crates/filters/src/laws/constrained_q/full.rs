@@ -1,8 +1,8 @@
 //! The regression solved for a full symmetric density: a semidefinite programme in six unknowns, by cutting planes.
 //!
-//! clarabel's own semidefinite cone needs a BLAS and a LAPACK: Fortran, CMake, R, a download while building, or an Apple
-//! machine, according to the feature chosen, and a library that must travel with the FMU. For a 3x3 matrix second-order
-//! cones do: a symmetric matrix M is positive semidefinite exactly when every 2x2 matrix [v w]^T M [v w] with orthonormal
+//! clarabel's own semidefinite cone needs a BLAS and a LAPACK, and each of its features asks for something that not every
+//! machine has: CMake and Fortran (netlib), sources downloaded while building (openblas), the MKL, R, or an Apple system.
+//! An FMU should build and load anywhere, and for a 3x3 matrix second-order cones do: a symmetric matrix M is positive semidefinite exactly when every 2x2 matrix [v w]^T M [v w] with orthonormal
 //! v, w is, and each of those is one second-order cone. The programme with a few of them bounds the semidefinite one from
 //! outside; its answer violates others, first of all among the eigenvectors of its own M. Those are added and the programme
 //! is solved again, until no eigenvalue violates its bound: then the answer of a programme with fewer constraints
@@ -34,6 +34,7 @@ struct Cuts {
 }
 
 impl Margin {
+    /// The matrix itself.
     fn at(&self, u: &Matrix3<f64>) -> Matrix3<f64> {
         let t = Matrix3::from_diagonal(&self.scale);
         Matrix3::identity() * self.constant + t * u * t * self.sign
@@ -69,7 +70,7 @@ impl Margin {
 }
 
 /// The symmetric matrix of the six entries.
-pub(super) fn matrix(entries: &Vector6<f64>) -> Matrix3<f64> {
+fn matrix(entries: &Vector6<f64>) -> Matrix3<f64> {
     let mut m = Matrix3::zeros();
     for (value, (i, j)) in entries.iter().zip(FULL) {
         m[(i, j)] = *value;
@@ -79,13 +80,13 @@ pub(super) fn matrix(entries: &Vector6<f64>) -> Matrix3<f64> {
 }
 
 /// The six entries of a symmetric matrix.
-pub(super) fn entries(m: &Matrix3<f64>) -> Vector6<f64> {
+fn entries(m: &Matrix3<f64>) -> Vector6<f64> {
     Vector6::from_fn(|k, _| m[FULL[k]])
 }
 
 /// The symmetric Q with `lower` I <= Q <= `upper` I that minimises 1/2 q^T h q - g^T q, q its six entries.
 ///
-/// * `h`: 6x6, symmetric, positive definite.
+/// * `h`, `g`: 6x6, symmetric, positive definite, and 6, in the order of [`FULL`].
 ///
 /// # Errors
 /// See [`NoAnswer`]; `None` also when the last of the rounds still violates a bound.
