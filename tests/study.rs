@@ -70,6 +70,53 @@ fn threads_repeats_and_masters_give_the_same_bytes() {
     assert_ne!(study("seed", &["--seed", "6"])["summary.csv"], one["summary.csv"]);
 }
 
+#[test]
+fn a_varied_run_is_replayed_with_its_own_values() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = |name: &str, jobs: &str| {
+        let out = folder.path().join(name);
+        let vary = [
+            "--vary",
+            "fmu-truth.vent.scale=loguniform:1:1000",
+            "--jobs",
+            jobs,
+            "--out",
+            text(&out),
+        ];
+        harness_ok(&[&STUDY, &vary[..]].concat());
+        results(&out)
+    };
+    let one = study("one", "1");
+    assert_eq!(study("two", "2"), one);
+    let manifest = String::from_utf8(one["manifest.json"].clone()).unwrap();
+    assert!(manifest.contains("\"vent.scale\":\"loguniform:1:1000\""), "{manifest}");
+
+    let runs = read_csv(&folder.path().join("one/runs.csv"));
+    let row = runs
+        .iter()
+        .find(|r| r["filter"] == "fixed_q" && r["run"] == "2")
+        .unwrap();
+    let replayed = |vary: &[&str]| {
+        let out = folder.path().join("replay.csv");
+        let run = ["replay", "--filters", "fixed_q", "--run", "2", "--out", text(&out)];
+        harness_ok(&[&run, vary].concat());
+        let scored: Vec<f64> = read_csv(&out)
+            .iter()
+            .filter(|line| line["t_s"].parse::<f64>().unwrap() >= 300.0)
+            .map(|line| ["r", "t", "n"].map(|axis| line[&format!("err_pos_{axis}_m")].parse::<f64>().unwrap().powi(2)))
+            .map(|squares| squares.iter().sum())
+            .collect();
+        (scored.iter().sum::<f64>() / scored.len() as f64).sqrt()
+    };
+    let rmse: f64 = row["pos_rmse_m"].parse().unwrap();
+    let same = replayed(&["--vary", "fmu-truth.vent.scale=loguniform:1:1000"]);
+    assert!((same / rmse - 1.0).abs() < 1e-9, "{same} and {rmse}");
+    assert!(
+        (replayed(&[]) / rmse - 1.0).abs() > 1e-9,
+        "the variation has changed nothing"
+    );
+}
+
 /// One of our filters as a stranger's, with a covariance that overflows at its first sample.
 #[test]
 fn a_filter_that_fails_is_counted_and_named_and_the_others_go_on() {
@@ -186,7 +233,7 @@ fn mistakes_on_the_command_line_are_told_and_leave_earlier_results_alone() {
     std::fs::write(&cut, &bytes[..bytes.len() / 2]).unwrap();
     let cut = format!("x={}", text(&cut));
 
-    let mistakes: [Mistake<'_>; 22] = [
+    let mistakes: [Mistake<'_>; 28] = [
         (
             &["--set", "fmu-truth.lidar.sigma_rnge=1"],
             &["fmu-truth", "lidar.sigma_rnge", "did you mean \"lidar.sigma_range\""],
@@ -209,6 +256,35 @@ fn mistakes_on_the_command_line_are_told_and_leave_earlier_results_alone() {
             &["fixed_q", "r.sigma_range", "0.0 m must be greater than 0"],
         ),
         (&["--set", "fmu-nav.est.time=0"], &["fmu-nav.est.time", "output"]),
+        (
+            &["--vary", "fmu-truth.vent.scale=uniform:2:1"],
+            &["--vary", "range 2 to 1 is empty"],
+        ),
+        (
+            &["--vary", "fmu-truth.vent.sclae=uniform:1:2"],
+            &["vent.sclae", "did you mean \"vent.scale\""],
+        ),
+        (
+            &["--vary", "fmu-truth.vent.scale=uniform:-1:2"],
+            &["fmu-truth", "vent.scale", "-1", "minimum is 0"],
+        ),
+        (
+            &["--vary", "fmu-nav.milton.m_b=uniform:1:2"],
+            &["fmu-nav.milton.m_b", "Integer", "Real"],
+        ),
+        (
+            &[
+                "--set",
+                "fmu-truth.vent.scale=1",
+                "--vary",
+                "fmu-truth.vent.scale=uniform:1:2",
+            ],
+            &["fmu-truth.vent.scale", "set as well"],
+        ),
+        (
+            &["--scenario", "formation,leo_venting", "--filters", "observer"],
+            &["'observer'", "'leo_venting'", "measurement of the whole state"],
+        ),
         (&["--filters", "kalman"], &["kalman", "fixed_q, "]),
         (&["--filters", "milton@papr"], &["milton", "papr", "consistent"]),
         (&["--scenario", "moon"], &["moon", "leo_venting"]),

@@ -9,7 +9,7 @@ use super::{Verdict, own_fmus, say};
 use crate::HarnessError;
 use crate::cli::ListArgs;
 use crate::models::{NAV, PAPER, TRUTH};
-use crate::scenarios::SCENARIOS;
+use crate::scenarios::{Bound, SCENARIOS};
 
 pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
     let paths = own_fmus(&args.build, &[TRUTH, NAV])?;
@@ -53,8 +53,13 @@ fn scenarios() -> String {
             s.duration, s.scored_from, s.reference
         ));
         text.push_str(&format!("    filters: {}\n", s.filters.join(",")));
-        for b in s.bounds {
-            text.push_str(&format!("    {} {} {}: {}\n", b.filter, b.column, b.range(), b.claim));
+        let same = |a: &Bound, b: &Bound| (a.filter, a.claim, a.range()) == (b.filter, b.claim, b.range());
+        for together in s.bounds.chunk_by(same) {
+            let columns: Vec<&str> = together.iter().map(|b| b.column).collect();
+            if let Some(b) = together.first() {
+                let columns = columns.join(", ");
+                text.push_str(&format!("    {} {columns} {}: {}\n", b.filter, b.range(), b.claim));
+            }
         }
     }
     text

@@ -23,19 +23,24 @@ pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<Ver
         rehearse(&bench.spec(&request)?)?;
     }
     let heading = format!("{} runs of each study from seed {}.", args.runs, args.seed);
-    let mut said = 0;
+    let (mut said, mut chapter) = (0, "");
     let notebook = Notebook::fill(&mut bench, |notebook| {
-        for (_, line) in &notebook.lines[said..] {
+        for (title, line) in &notebook.lines[said..] {
+            if *title != chapter {
+                chapter = title;
+                say(out, &format!("\n{title}"))?;
+            }
             say(out, &line_text(line))?;
         }
         said = notebook.lines.len();
         write(&folder, notebook, &heading).map(|_| ())
     })?;
+    say(out, "\nTime per step of each filter")?;
     for row in &notebook.timings {
         let cost = table::number(Some(row.nav_us_per_step));
         say(
             out,
-            &format!("cost    {} {}, {}: {cost} us/step", row.scenario, row.case, row.filter),
+            &format!("{cost:>8} us  {}, {}: {}", row.scenario, row.case, row.filter),
         )?;
     }
 

@@ -41,6 +41,8 @@ const CONVERGED_AT: f64 = 350.0;
 const CONVERGED_BY: f64 = 400.0;
 /// Error, as a share of the nominal value, below which the paper calls the network converged.
 const CONVERGED_SHARE: f64 = 0.1;
+/// Multiple of its later median below which an error has settled.
+const SETTLED: f64 = 2.0;
 /// Orders of magnitude that the estimate is off at first.
 const ORDERS: f64 = 6.0;
 /// Size of the perturbations, m/s2.
@@ -128,13 +130,10 @@ fn claims(curve: &[Point]) -> Vec<Line> {
     let orders = early.reduce(f64::max).map(f64::log10);
     let converged = curve.iter().find(|p| p.share() <= CONVERGED_SHARE).map(|p| p.time);
     let at = curve.iter().find(|p| p.time >= CONVERGED_AT).map(Point::share);
-    let mut later: Vec<f64> = curve
-        .iter()
-        .filter(|p| p.time >= CONVERGED_AT)
-        .map(Point::share)
-        .collect();
-    later.sort_by(f64::total_cmp);
-    let usual = later.get(later.len() / 2).copied();
+    let usual = median(curve, CONVERGED_AT, Point::share);
+    let settled = median(curve, CONVERGED_BY, |p| p.error.norm())
+        .and_then(|level| curve.iter().find(|p| p.error.norm() <= SETTLED * level))
+        .map(|p| p.time);
     let size = (!curve.is_empty())
         .then(|| (curve.iter().map(|p| p.d.norm_squared()).sum::<f64>() / curve.len() as f64).sqrt());
     let line = |item: &str, quantity: &str, unit| {
@@ -171,7 +170,17 @@ fn claims(curve: &[Point]) -> Vec<Line> {
         )
         .printed(CONVERGED_AT)
         .value(converged)
-        .bound(Bound::between(0.0, CONVERGED_BY)),
+        .bound(Bound::between(0.0, CONVERGED_BY))
+        .note("Table 2's own errors, 1.2e-6 m/s2 together, are 12 % of the 1e-5 m/s2 that Fig. 4 names"),
+        line(
+            "the network converges after nearly 350 s",
+            "first time with the RMS error within twice its later median",
+            "s",
+        )
+        .printed(CONVERGED_AT)
+        .value(settled)
+        .bound(Bound::between(0.0, CONVERGED_BY))
+        .note("a convergence that asks for no level"),
         line(
             "converged is within 10 % of the nominal value",
             "RMS error over true d at 350 s",
@@ -190,6 +199,13 @@ fn claims(curve: &[Point]) -> Vec<Line> {
         .bound(share)
         .note("whether it stays converged; the orbit's d changes in size"),
     ]
+}
+
+/// Median of a number over the epochs from a time on.
+fn median(curve: &[Point], from: f64, of: impl Fn(&Point) -> f64) -> Option<f64> {
+    let mut values: Vec<f64> = curve.iter().filter(|p| p.time >= from).map(of).collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
 }
 
 /// How far Clohessy-Wiltshire, started on the true state, is from it after an orbit.
@@ -255,7 +271,7 @@ mod tests {
             })
             .collect();
         let values: Vec<f64> = claims(&curve).iter().map(|line| line.value.unwrap()).collect();
-        for (value, expected) in values.iter().zip([2e-5, 6.0, 100.0, 0.04, 0.04]) {
+        for (value, expected) in values.iter().zip([2e-5, 6.0, 100.0, 100.0, 0.04, 0.04]) {
             assert!((value / expected - 1.0).abs() < 1e-12, "{values:?}");
         }
         assert!(claims(&[]).iter().all(|line| line.value.is_none()));

@@ -131,6 +131,8 @@ pub struct Notebook {
     pub files: Vec<(String, Vec<u8>)>,
     /// Time on the clock for all runs.
     pub wall: Duration,
+    /// Title of the chapter that is being written.
+    chapter: &'static str,
 }
 
 impl Notebook {
@@ -146,13 +148,11 @@ impl Notebook {
     ) -> Result<Self, HarnessError> {
         let mut notebook = Self::default();
         for chapter in CHAPTERS {
-            let begun = notebook.lines.len();
+            notebook.chapter = chapter.title;
             (chapter.write)(laboratory, &mut notebook)?;
-            for (title, _) in &mut notebook.lines[begun..] {
-                *title = chapter.title;
-            }
             after(&notebook)?;
         }
+        notebook.chapter = "Runs";
         notebook.count_failures();
         after(&notebook)?;
         Ok(notebook)
@@ -185,7 +185,7 @@ impl Notebook {
     }
 
     fn push(&mut self, line: Line) {
-        self.lines.push(("", line));
+        self.lines.push((self.chapter, line));
     }
 
     fn push_file(&mut self, name: &str, columns: &[&str], rows: &[Vec<Option<f64>>]) -> Result<(), HarnessError> {
@@ -205,6 +205,6 @@ impl Notebook {
         .value(Some(failed as f64))
         .bound(Bound::exactly(0.0))
         .required(true);
-        self.lines.push(("Runs", line));
+        self.push(line);
     }
 }

@@ -17,6 +17,8 @@ const NEURONS: [u32; 6] = [1, 5, 15, 30, 60, 120];
 /// The differences sought are far larger than what fewer runs cost in standard error.
 const ONE_RUN_IN: u32 = 5;
 
+const NOTE: &str = "learning rate and shape as for 60 neurons; the time per step is in timing.csv";
+
 /// What is written for each number of neurons.
 const COLUMNS: [&str; 8] = [
     "neurons",
@@ -65,7 +67,7 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
             line("position RMSE", "m", "pos_rmse_m", "pos_rmse_se_m"),
         ];
         for line in lines {
-            notebook.push(line.note("the time per step is in timing.csv"));
+            notebook.push(line.note(NOTE));
         }
     }
     notebook.push_file("neurons.csv", &COLUMNS, &rows)
