@@ -67,7 +67,7 @@ impl Model for NavModel {
             default_step: 1.0,
             vendor_annotations: vec![VendorAnnotation {
                 tool: "trade-harness",
-                content: vec![presets(), meaning()],
+                content: vec![presets(), searches(), meaning()],
             }],
             ..ModelInfo::default()
         })
@@ -178,6 +178,22 @@ fn presets() -> Element {
                 );
             }
             all = all.child(element);
+        }
+    }
+    all
+}
+
+/// The ranges that a search for each filter's best tuning varies, for `trade-harness`.
+fn searches() -> Element {
+    let mut all = Element::new("Searches");
+    for filter in FILTERS {
+        for search in filter.search {
+            all = all.child(
+                Element::new("Search")
+                    .attribute("variable", format!("{}.{}", filter.name, search.tunable))
+                    .attribute("low", format!("{:?}", search.low))
+                    .attribute("high", format!("{:?}", search.high)),
+            );
         }
     }
     all

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::models::{Assignment, FilterChoice, ForeignFilter, Mapping, Variation};
+use crate::models::{Assignment, FilterChoice, ForeignFilter, Mapping, Range, Variation};
 use crate::pack;
+use crate::tuning::standing::Objective;
 
 /// Compares navigation filters in simulated worlds; both are FMI 2.0 FMUs.
 #[derive(Debug, Parser)]
@@ -25,6 +26,8 @@ pub enum Command {
     Pack(PackArgs),
     /// Run a Monte Carlo study of several filters in the same worlds
     Compare(CompareArgs),
+    /// Search for every filter's best parameters, then compare the filters at their best
+    Tune(TuneArgs),
     /// Write one run out, sample by sample
     Replay(ReplayArgs),
     /// Rerun everything the two papers print and hold it beside their numbers
@@ -81,6 +84,9 @@ pub struct StudyArgs {
     /// Tell what a variable of a foreign FMU is called here; repeatable
     #[arg(long = "map", value_name = "LABEL.THEIR_NAME=OUR_NAME")]
     pub mappings: Vec<Mapping>,
+    /// Read tuned sets that 'tune' has written; they go by NAME@tuned
+    #[arg(long, value_name = "FILE")]
+    pub tuned: Option<PathBuf>,
     /// Where our FMUs come from.
     #[command(flatten)]
     pub build: BuildArgs,
@@ -99,6 +105,7 @@ impl StudyArgs {
             truth: None,
             foreign: Vec::new(),
             mappings: Vec::new(),
+            tuned: None,
             build: build.clone(),
         }
     }
@@ -182,6 +189,55 @@ pub struct CompareArgs {
     /// End with exit code 1 when the scenario as published misses one of its bounds
     #[arg(long, conflicts_with_all = ["assignments", "variations", "truth"])]
     pub check: bool,
+    /// Which filters, which parameters.
+    #[command(flatten)]
+    pub study: StudyArgs,
+}
+
+/// `tune`.
+#[derive(Debug, Args)]
+// Seeds of the search, not of a study; and each filter once, since a search leaves its preset behind.
+#[command(mut_arg("seed", |a| a.default_value("1001").help("Seed of the worlds to search in")))]
+#[command(mut_arg("filters", |a| a.help("Filters of fmu-nav, each with a preset if it is not 'paper'; empty for none [default: every one]")))]
+pub struct TuneArgs {
+    /// Scenarios, one search each
+    #[arg(
+        long = "scenario",
+        value_name = "NAME,...",
+        value_delimiter = ',',
+        default_value = "leo_venting"
+    )]
+    pub scenarios: Vec<String>,
+    /// Runs of each candidate, in the same worlds for all
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=i64::from(i32::MAX)))]
+    pub runs: u32,
+    /// Candidates of each filter, however many parameters it has; the first is the filter as given
+    #[arg(long, default_value_t = 48, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub evaluations: u32,
+    /// Runs to judge by
+    #[arg(long, value_name = "RUNS", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=i64::from(i32::MAX)))]
+    pub judge_runs: u32,
+    /// Seed of the worlds to judge in; not that of the search
+    #[arg(long, value_name = "SEED", default_value_t = 1, allow_negative_numbers = true, value_parser = clap::value_parser!(i32).range(0..))]
+    pub judge_seed: i32,
+    /// The error to make small
+    #[arg(long, value_enum, default_value_t = Objective::Position)]
+    pub objective: Objective,
+    /// Least mean NEES over its dimension that a candidate may have
+    #[arg(long, value_name = "NEES", default_value_t = 0.5, allow_negative_numbers = true)]
+    pub nees_min: f64,
+    /// Largest
+    #[arg(long, value_name = "NEES", default_value_t = 2.0, allow_negative_numbers = true)]
+    pub nees_max: f64,
+    /// Search a Real parameter on a logarithmic scale, beside or instead of the FMU's own range; repeatable
+    #[arg(long = "range", value_name = "MODEL.VARIABLE=LOW:HIGH")]
+    pub ranges: Vec<Range>,
+    /// Threads [default: all cores]
+    #[arg(long)]
+    pub jobs: Option<std::num::NonZeroUsize>,
+    /// Folder for the results
+    #[arg(long, value_name = "DIR", default_value = "results/tune")]
+    pub out: PathBuf,
     /// Which filters, which parameters.
     #[command(flatten)]
     pub study: StudyArgs,

@@ -112,6 +112,82 @@ pub enum HarnessError {
         /// Why.
         why: String,
     },
+    /// A range that no search can cover on a logarithmic scale.
+    #[error("{model}.{variable} cannot be searched from {low} to {high}: give LOW:HIGH with 0 < LOW < HIGH")]
+    SearchRange {
+        /// Model.
+        model: String,
+        /// Variable.
+        variable: String,
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
+    /// A range for something that is no Real parameter.
+    #[error("{model}.{variable} {what}; a search varies Real parameters only")]
+    NotSearchable {
+        /// Model.
+        model: String,
+        /// Variable.
+        variable: String,
+        /// What it is instead.
+        what: String,
+    },
+    /// `--range` for a filter that takes no part.
+    #[error("--range {model}.{variable} concerns no filter of this study; there are: {known}")]
+    RangeOfNothing {
+        /// Model.
+        model: String,
+        /// Variable.
+        variable: String,
+        /// Filters of the study.
+        known: String,
+    },
+    /// Two ranges for one variable.
+    #[error("--range gives two ranges for {model}.{variable}; give one")]
+    RangeTwice {
+        /// Model.
+        model: String,
+        /// Variable.
+        variable: String,
+    },
+    /// `--set` and `--range` of the same variable.
+    #[error(
+        "{model}.{variable} stands in --set and in --range; a value that is set is not searched, so give one of them"
+    )]
+    SetAndSearched {
+        /// Model.
+        model: String,
+        /// Variable.
+        variable: String,
+    },
+    /// A NEES limit that leaves nothing.
+    #[error(
+        "NEES limits of {low} to {high} leave nothing: give 0 < --nees-min < --nees-max; a consistent filter has 1"
+    )]
+    NeesLimits {
+        /// Smallest NEES over its dimension.
+        low: f64,
+        /// Largest.
+        high: f64,
+    },
+    /// A search would be judged in the worlds it was made in.
+    #[error(
+        "--seed and --judge-seed are both {seed}: filters would be judged in the worlds they were tuned in; give two seeds"
+    )]
+    SameSeeds {
+        /// The seed.
+        seed: i32,
+    },
+    /// A file of tuned sets that is none.
+    #[error("{} holds no tuned sets as 'trade-harness tune' writes them: {source}", path.display())]
+    NotTuned {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: serde_json::Error,
+    },
     /// Two rows of the results would have the same name.
     #[error("filter '{label}' stands in the study twice (or is the name of the truth); give each a label of its own")]
     LabelTwice {

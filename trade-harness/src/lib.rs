@@ -5,8 +5,8 @@
 //! interface, so anyone's FMU can take either place. No physics and no filter lives here; statistics are in `stats`,
 //! loading and stepping in `fmi2-import` and `cosim`.
 //!
-//! Start reading at [`study::Study`], then [`run::run_once`], which is one run; [`scenarios`] lists the worlds and
-//! [`commands`] what the command line offers.
+//! Start reading at [`study::Study`], then [`run::run_once`], which is one run; [`scenarios`] lists the worlds,
+//! [`tuning`] searches for a filter's best parameters and [`commands`] is what the command line offers.
 
 pub mod cli;
 pub mod commands;
@@ -22,5 +22,6 @@ pub mod scenarios;
 pub mod score;
 pub mod signals;
 pub mod study;
+pub mod tuning;
 
 pub use error::HarnessError;

@@ -46,6 +46,8 @@ pub struct ModelDescription {
     pub presets: Vec<Preset>,
     /// Filters that have a meaning in some scenarios only, from the same annotation; the others have one everywhere.
     pub meanings: Vec<Meaning>,
+    /// Ranges a search for the best tuning may vary, from the same annotation; empty in FMUs without one.
+    pub searches: Vec<Search>,
     /// Position in `variables` by name.
     pub(crate) index: HashMap<String, usize>,
 }
@@ -174,6 +176,17 @@ pub struct Meaning {
     pub scenarios: Vec<String>,
     /// Why not in the others.
     pub why: String,
+}
+
+/// A range over which a search for the best tuning may vary a parameter, as stated: nothing about it is checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Search {
+    /// Name of the parameter.
+    pub variable: String,
+    /// Smallest value, in the unit of the variable.
+    pub low: f64,
+    /// Largest value.
+    pub high: f64,
 }
 
 /// Role of a variable.

@@ -10,7 +10,9 @@
 mod common;
 
 use common::Workshop;
-use fmi2_import::{BaseType, Causality, Fmu, ImportError, Initial, ModelDescription, Value, Variability, suggest};
+use fmi2_import::{
+    BaseType, Causality, Fmu, ImportError, Initial, ModelDescription, Search, Value, Variability, suggest,
+};
 
 const XML: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <!-- written by hand -->
@@ -35,7 +37,7 @@ const XML: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
   <LogCategories><Category name="logEvents" description="what happens"/></LogCategories>
   <DefaultExperiment startTime="0" stopTime="5680" stepSize="1"/>
   <VendorAnnotations>
-    <Tool name="another"><Presets kind="other"><Preset/><Stray/></Presets><x:y xmlns:x="urn:x">text</x:y></Tool>
+    <Tool name="another"><Presets kind="other"><Preset/><Stray/></Presets><Searches><Search low="far"/></Searches><x:y xmlns:x="urn:x">text</x:y></Tool>
     <Tool name="trade-harness"><Presets>
       <Preset filter="milton" name="paper" about="as published"/>
       <Preset filter="milton" name="consistent" about="as derived">
@@ -44,7 +46,9 @@ const XML: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
       </Preset>
     </Presets><Meaning>
       <Only filter="observer" scenarios="formation, far" why="it needs the state measured in full"/>
-    </Meaning></Tool>
+    </Meaning><Searches>
+      <Search variable="gate" low="1e-7" high=" 0.01"/>
+    </Searches></Tool>
   </VendorAnnotations>
   <ModelVariables>
     <ScalarVariable name="gate" valueReference="7" description="a bound" causality="parameter" variability="fixed" initial="exact">
@@ -178,6 +182,28 @@ fn a_filter_has_a_meaning_everywhere_unless_the_annotation_says_otherwise() {
         let error = describe(&XML.replace(attribute, "")).unwrap_err().to_string();
         let name = attribute.split('=').next().unwrap();
         assert!(error.contains(&format!("an Only has no {name} attribute")), "{error}");
+    }
+}
+
+#[test]
+fn searches_are_read_from_our_annotation_alone() {
+    let expected = Search {
+        variable: "gate".to_owned(),
+        low: 1e-7,
+        high: 1e-2,
+    };
+    assert_eq!(nav().searches, [expected]);
+    for (from, to, told) in [
+        (" low=\"1e-7\"", "", "a Search has no low attribute"),
+        (" 0.01", "much", "high \"much\" of a Search is no number"),
+        (
+            "Search variable=\"gate\"",
+            "Search",
+            "a Search has no variable attribute",
+        ),
+    ] {
+        let error = describe(&XML.replace(from, to)).unwrap_err().to_string();
+        assert!(error.contains(told), "{error}");
     }
 }
 

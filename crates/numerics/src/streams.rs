@@ -39,6 +39,8 @@ pub enum Source {
     Metrology = 12,
     /// Parameters that a study varies from run to run.
     Variation = 13,
+    /// Shift of the points that a search for the best tuning tries.
+    Search = 14,
 }
 
 /// Generator for one cause of randomness in one run; equal arguments give equal streams.

@@ -6,12 +6,12 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Cast, Verdict, note, say, threads};
+use super::{Cast, Verdict, closing, note, say, threads};
 use crate::HarnessError;
 use crate::cli::CompareArgs;
 use crate::output::OutputFolder;
 use crate::report::claims::verdicts;
-use crate::report::manifest::{Environment, Manifest, ModelFacts, StudyFacts, peak_memory_mib};
+use crate::report::manifest::{Environment, Manifest, ModelFacts, StudyFacts};
 use crate::report::runs::Named;
 use crate::report::summary::SummaryRow;
 use crate::report::timing::TimingRow;
@@ -51,7 +51,7 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
         results.push(result);
     }
     let report = Report::new(&studies, &results);
-    let files = report.write(&folder, &cast, jobs)?;
+    let files = report.write(&folder, &cast, jobs, Vec::new())?;
     report.print(args, &files, out)
 }
 
@@ -77,16 +77,8 @@ impl<'a> Progress<'a> {
     }
 
     pub(super) fn finished(&self, run: u32, rows: &[RunRow]) {
-        for (filter, row) in self.study.spec.filters.iter().zip(rows) {
-            if let Some(failure) = &row.failure {
-                let when = failure.time.map(|t| format!(" at {t} s")).unwrap_or_default();
-                let seed = self.study.spec.seed;
-                let text = format!(
-                    "failed: {} seed {seed} run {run}{when}: {}",
-                    filter.label, failure.message
-                );
-                self.bar.suspend(|| note(&text));
-            }
+        for text in failure_notes(self.study, run, rows) {
+            self.bar.suspend(|| note(&text));
         }
         self.bar.inc(1);
     }
@@ -96,16 +88,27 @@ impl<'a> Progress<'a> {
     }
 }
 
+/// A line for each filter that failed in a run.
+pub(super) fn failure_notes(study: &Study, run: u32, rows: &[RunRow]) -> impl Iterator<Item = String> {
+    let seed = study.spec.seed;
+    study.spec.filters.iter().zip(rows).filter_map(move |(filter, row)| {
+        let failure = row.failure.as_ref()?;
+        let when = failure.time.map(|t| format!(" at {t} s")).unwrap_or_default();
+        let (label, message) = (&filter.label, &failure.message);
+        Some(format!("failed: {label} seed {seed} run {run}{when}: {message}"))
+    })
+}
+
 /// All results of the command, ready to be written.
-struct Report<'a> {
+pub(super) struct Report<'a> {
     studies: &'a [Study],
     results: &'a [StudyResult],
-    rows: Vec<SummaryRow>,
-    timings: Vec<TimingRow>,
+    pub(super) rows: Vec<SummaryRow>,
+    pub(super) timings: Vec<TimingRow>,
 }
 
 impl<'a> Report<'a> {
-    fn new(studies: &'a [Study], results: &'a [StudyResult]) -> Self {
+    pub(super) fn new(studies: &'a [Study], results: &'a [StudyResult]) -> Self {
         let mut rows = Vec::new();
         let mut timings = Vec::new();
         for (study, result) in studies.iter().zip(results) {
@@ -124,8 +127,14 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// Writes every file; `manifest.json` last, so that it stands for a complete set.
-    fn write(&self, folder: &OutputFolder, cast: &Cast, jobs: usize) -> Result<Vec<PathBuf>, HarnessError> {
+    /// Writes every file and what else the command has; `manifest.json` last, so that it stands for a complete set.
+    pub(super) fn write(
+        &self,
+        folder: &OutputFolder,
+        cast: &Cast,
+        jobs: usize,
+        more: Vec<(String, Vec<u8>)>,
+    ) -> Result<Vec<PathBuf>, HarnessError> {
         let named: Vec<Named<'_>> = self
             .studies
             .iter()
@@ -152,6 +161,7 @@ impl<'a> Report<'a> {
                 files.push((name, epochs::render(study.spec, filter)?));
             }
         }
+        files.extend(more);
         let models = || cast.models.all();
         let manifest = Manifest {
             harness_version: env!("CARGO_PKG_VERSION"),
@@ -210,13 +220,7 @@ impl<'a> Report<'a> {
             missed |= verdicts.iter().any(|v| !v.holds());
             say(out, "")?;
         }
-        if let Some(peak) = peak_memory_mib() {
-            say(out, &format!("Memory:  {peak:.0} MiB at most"))?;
-        }
-        let line: Vec<String> = std::env::args().skip(1).collect();
-        say(out, &format!("Command: trade-harness {}", line.join(" ")))?;
-        let shown: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
-        say(out, &format!("Files:   {}", shown.join("\n         ")))?;
+        closing(files, out)?;
         Ok(if missed && args.check {
             Verdict::BoundsMissed
         } else {

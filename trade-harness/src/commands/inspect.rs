@@ -54,6 +54,15 @@ pub(super) fn inspect(args: &InspectArgs, out: &mut dyn Write) -> Result<Verdict
             ),
         )?;
     }
+    for s in &d.searches {
+        say(
+            out,
+            &format!(
+                "{:30} {} from {:?} to {:?}",
+                "search of tune", s.variable, s.low, s.high
+            ),
+        )?;
+    }
     for (title, causality) in [
         ("Parameters", Causality::Parameter),
         ("Calculated parameters", Causality::CalculatedParameter),

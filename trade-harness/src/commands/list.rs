@@ -98,6 +98,12 @@ fn describe_filter(nav: &ModelDescription, filter: &str) -> String {
             text.push_str(&format!("    {name} = {value}\n"));
         }
     }
+    for search in nav.searches.iter().filter(|s| prefix(&s.variable) == filter) {
+        text.push_str(&format!(
+            "  tune: {} from {:?} to {:?}\n",
+            search.variable, search.low, search.high
+        ));
+    }
     let own: Vec<&Variable> = parameters(nav).filter(|v| prefix(&v.name) == filter).collect();
     if !own.is_empty() {
         text.push_str(&variables(own.into_iter()));

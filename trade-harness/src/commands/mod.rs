@@ -6,6 +6,7 @@ mod list;
 mod pack;
 mod replay;
 mod reproduce;
+mod tune;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -13,10 +14,12 @@ use std::process::ExitCode;
 
 use crate::HarnessError;
 use crate::cli::{BuildArgs, Cli, Command, StudyArgs};
-use crate::models::{FilterChoice, Models, NAV, TRUTH};
+use crate::models::{FilterChoice, Models, NAV, PAPER, TRUTH};
 use crate::pack::{default_folder, fmu_path};
+use crate::report::manifest::peak_memory_mib;
 use crate::run::{Spec, chain};
 use crate::scenarios::Scenario;
+use crate::tuning::sets::TunedFile;
 
 /// How a command that could do its work ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,6 +35,7 @@ pub fn execute(cli: Cli) -> ExitCode {
         Command::List(args) => list::list(&args, &mut out),
         Command::Pack(args) => pack::pack(&args, &mut out),
         Command::Compare(args) => compare::compare(&args, &mut out),
+        Command::Tune(args) => tune::tune(&args, &mut out),
         Command::Replay(args) => replay::replay(&args, &mut out),
         Command::Reproduce(args) => reproduce::reproduce(&args, &mut out),
         Command::Inspect(args) => inspect::inspect(&args, &mut out),
@@ -59,6 +63,24 @@ fn say(out: &mut dyn Write, text: &str) -> Result<(), HarnessError> {
         path: "the output".into(),
         source,
     })
+}
+
+/// Threads to use: as many as there are cores, unless told otherwise.
+fn jobs(asked: Option<std::num::NonZeroUsize>) -> usize {
+    asked
+        .or_else(|| std::thread::available_parallelism().ok())
+        .map_or(1, usize::from)
+}
+
+/// The last lines of a study: what it took, how to repeat it and where its results are.
+fn closing(files: &[PathBuf], out: &mut dyn Write) -> Result<(), HarnessError> {
+    if let Some(peak) = peak_memory_mib() {
+        say(out, &format!("Memory:  {peak:.0} MiB at most"))?;
+    }
+    let line: Vec<String> = std::env::args().skip(1).collect();
+    say(out, &format!("Command: trade-harness {}", line.join(" ")))?;
+    let shown: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
+    say(out, &format!("Files:   {}", shown.join("\n         ")))
 }
 
 /// Paths of our FMUs that are needed, built and packed unless that is not wanted.
@@ -101,7 +123,8 @@ fn choices(args: &StudyArgs, scenario: &Scenario) -> Vec<FilterChoice> {
 
 impl Cast {
     fn new(args: &StudyArgs) -> Result<Self, HarnessError> {
-        let needs_nav = args.filters.is_empty() || args.filters.iter().any(|f| f.0.is_some());
+        let of_ours = |c: &FilterChoice| !(c.preset != PAPER && args.foreign.iter().any(|f| f.label == c.name));
+        let needs_nav = args.filters.is_empty() || args.filters.iter().filter_map(|f| f.0.as_ref()).any(of_ours);
         let mut needed = Vec::new();
         needed.extend(args.truth.is_none().then_some(TRUTH));
         needed.extend(needs_nav.then_some(NAV));
@@ -112,14 +135,26 @@ impl Cast {
             .as_deref()
             .or_else(|| path_of(TRUTH))
             .unwrap_or(Path::new(TRUTH));
-        let models = Models::open(truth, path_of(NAV), &args.foreign, &args.mappings)?;
+        let mut models = Models::open(truth, path_of(NAV), &args.foreign, &args.mappings)?;
+        if let Some(path) = &args.tuned {
+            models.tuned = TunedFile::read(path)?.sets;
+        }
         Ok(Self { models })
     }
 
     /// What the runs of one scenario share.
     fn spec(&self, args: &StudyArgs, scenario: &'static Scenario) -> Result<Spec, HarnessError> {
-        let choices = choices(args, scenario);
-        let (mut truth, mut filters) = self.models.cast(scenario, &choices, &args.assignments)?;
+        self.spec_of(&choices(args, scenario), args, scenario)
+    }
+
+    /// The same with other filters of ours.
+    fn spec_of(
+        &self,
+        choices: &[FilterChoice],
+        args: &StudyArgs,
+        scenario: &'static Scenario,
+    ) -> Result<Spec, HarnessError> {
+        let (mut truth, mut filters) = self.models.cast(scenario, choices, &args.assignments)?;
         self.models
             .vary(&mut truth, &mut filters, &args.variations, &args.assignments)?;
         let suggested = self.models.truth.fmu.description().default_experiment.step_size;

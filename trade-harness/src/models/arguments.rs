@@ -66,6 +66,36 @@ impl FromStr for Assignment {
     }
 }
 
+/// `MODEL.VARIABLE=LOW:HIGH`, what a search may vary.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Range {
+    /// `fmu-nav` or the label of a foreign filter.
+    pub model: String,
+    /// Name of a Real parameter of that FMU.
+    pub variable: String,
+    /// Smallest value; not checked here.
+    pub low: f64,
+    /// Largest value.
+    pub high: f64,
+}
+
+impl FromStr for Range {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("'{text}' is not MODEL.VARIABLE=LOW:HIGH, as in fmu-nav.snc.q=1e-6:1e-3");
+        let Assignment { model, variable, value } = text.parse().map_err(|_| wrong())?;
+        let number = |text: &str| text.trim().parse().map_err(|_| wrong());
+        let (low, high) = value.split_once(':').ok_or_else(wrong)?;
+        Ok(Self {
+            model,
+            variable,
+            low: number(low)?,
+            high: number(high)?,
+        })
+    }
+}
+
 /// `LABEL=PATH`, a foreign filter.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ForeignFilter {
@@ -156,6 +186,23 @@ mod tests {
             "a=b.c",
         ] {
             assert!(bad.parse::<Assignment>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn ranges_are_two_numbers() {
+        let range: Range = "fmu-nav.snc.q=1e-6:1e-3".parse().unwrap();
+        assert_eq!((range.model.as_str(), range.variable.as_str()), ("fmu-nav", "snc.q"));
+        assert!((range.low / 1e-6 - 1.0).abs() < 1e-15 && (range.high / 1e-3 - 1.0).abs() < 1e-15);
+        for bad in [
+            "",
+            "fmu-nav.snc.q",
+            "fmu-nav.snc.q=1",
+            "fmu-nav.snc.q=1:",
+            "fmu-nav.snc.q=a:2",
+            "snc=1:2",
+        ] {
+            assert!(bad.parse::<Range>().unwrap_err().contains("LOW:HIGH"), "{bad}");
         }
     }
 

@@ -13,8 +13,9 @@ use fmi2_import::{Causality, Fmu, ModelDescription};
 
 use crate::HarnessError;
 use crate::scenarios::Scenario;
+use crate::tuning::sets::TunedSet;
 
-pub use arguments::{Assignment, FilterChoice, ForeignFilter, Mapping, PAPER};
+pub use arguments::{Assignment, FilterChoice, ForeignFilter, Mapping, PAPER, Range};
 pub use variation::{Distribution, Variation, Varied};
 
 /// Name under which `--set` addresses the truth.
@@ -52,6 +53,31 @@ pub struct Participant {
     pub varied: Vec<Varied>,
     /// Both as text, under the FMU's own names, for the record.
     pub record: Vec<(String, String)>,
+}
+
+impl Participant {
+    /// Start value of a variable by the FMU's own name, if one is set.
+    pub fn start(&self, own: &str) -> Option<&Value> {
+        let contract = self.contract(own);
+        self.starts
+            .iter()
+            .find(|(name, _)| name == contract)
+            .map(|(_, value)| value)
+    }
+
+    /// Sets the start value of a Real variable by the FMU's own name.
+    pub fn set_real(&mut self, own: &str, value: f64) {
+        let contract = self.contract(own).to_owned();
+        self.starts.retain(|(name, _)| *name != contract);
+        self.starts.push((contract, Value::Real(value)));
+        self.record.retain(|(name, _)| name != own);
+        self.record.push((own.to_owned(), format!("{value:?}")));
+    }
+
+    fn contract<'a>(&'a self, own: &'a str) -> &'a str {
+        let alias = self.aliases.iter().find(|(name, _)| name == own);
+        alias.map_or(own, |(_, contract)| contract)
+    }
 }
 
 impl fmt::Debug for Participant {
@@ -124,6 +150,8 @@ pub struct Models {
     pub nav: Option<Model>,
     /// Filters of others, in the order given.
     pub foreign: Vec<Model>,
+    /// Parameter sets from a search, beside the presets of the FMUs.
+    pub tuned: Vec<TunedSet>,
 }
 
 impl Models {
@@ -144,6 +172,7 @@ impl Models {
                 .iter()
                 .map(|f| Model::open(&f.label, &f.path, mappings))
                 .collect::<Result<_, _>>()?,
+            tuned: Vec::new(),
         };
         for mapping in mappings {
             models.require(
@@ -159,7 +188,11 @@ impl Models {
         std::iter::once(&self.truth).chain(&self.nav).chain(&self.foreign)
     }
 
-    fn require(&self, name: &str, text: &str) -> Result<&Model, HarnessError> {
+    /// Checks that an FMU is in the study; `text` is what named it.
+    ///
+    /// # Errors
+    /// [`HarnessError::UnknownModel`].
+    pub fn require(&self, name: &str, text: &str) -> Result<&Model, HarnessError> {
         self.all()
             .find(|m| m.name == name)
             .ok_or_else(|| HarnessError::UnknownModel {
@@ -188,21 +221,25 @@ impl Models {
             .named(TRUTH);
         let mut filters = Vec::new();
         for choice in choices {
-            let nav = self.nav.as_ref().ok_or_else(|| HarnessError::NoNav {
-                label: choice.label.clone(),
-            })?;
-            let starts = StartValues::new(nav)
-                .scenario(scenario)?
-                .filter(choice)?
-                .assign(assignments)?;
-            if let Some(why) = nav.description().without_meaning(&choice.name, scenario.name) {
+            let model = self.model_of(choice)?;
+            let starts = StartValues::new(model).scenario(scenario)?;
+            let tuned = self
+                .tuned
+                .iter()
+                .filter(|t| t.scenario == scenario.name && t.filter == choice.name);
+            let starts = if model.name == NAV {
+                starts.filter(choice, tuned)?
+            } else {
+                starts.tuned(choice, tuned)?
+            };
+            if let Some(why) = model.description().without_meaning(&choice.name, scenario.name) {
                 return Err(HarnessError::NoMeaning {
                     filter: choice.label.clone(),
                     scenario: scenario.name.to_owned(),
                     why: why.to_owned(),
                 });
             }
-            filters.push(starts.named(&choice.label));
+            filters.push(starts.assign(assignments)?.named(&choice.label));
         }
         for model in &self.foreign {
             filters.push(
@@ -222,6 +259,34 @@ impl Models {
             return Err(HarnessError::NoFilter);
         }
         Ok((truth, filters))
+    }
+
+    /// The FMU that a choice is about: fmu-nav, or a foreign one under its label with a tuned set.
+    ///
+    /// # Errors
+    /// [`HarnessError::NoNav`].
+    pub fn model_of(&self, choice: &FilterChoice) -> Result<&Model, HarnessError> {
+        // Without a preset the label of a foreign filter can only be a filter of ours.
+        let foreign = self
+            .foreign
+            .iter()
+            .find(|m| m.name == choice.name && choice.preset != PAPER);
+        foreign.or(self.nav.as_ref()).ok_or_else(|| HarnessError::NoNav {
+            label: choice.label.clone(),
+        })
+    }
+
+    /// The tuned set of this name, if there is one.
+    pub fn tuned_set(&self, scenario: &Scenario, filter: &str, name: &str) -> Option<&TunedSet> {
+        let wanted = |t: &&TunedSet| t.scenario == scenario.name && t.filter == filter && t.name == name;
+        self.tuned.iter().find(wanted)
+    }
+
+    /// Adds what a search found, in place of sets of the same names.
+    pub fn add_tuned(&mut self, sets: Vec<TunedSet>) {
+        let same = |a: &TunedSet, b: &TunedSet| (&a.scenario, &a.filter, &a.name) == (&b.scenario, &b.filter, &b.name);
+        self.tuned.retain(|old| !sets.iter().any(|new| same(old, new)));
+        self.tuned.extend(sets);
     }
 
     /// Time between the truth's samples, s, if it has a parameter of that name.
@@ -273,7 +338,11 @@ impl<'a> StartValues<'a> {
         Ok(self)
     }
 
-    fn filter(mut self, choice: &FilterChoice) -> Result<Self, HarnessError> {
+    fn filter<'t>(
+        mut self,
+        choice: &FilterChoice,
+        mut tuned: impl Iterator<Item = &'t TunedSet> + Clone,
+    ) -> Result<Self, HarnessError> {
         let description = self.model.description();
         let items = description.variable("filter")?.enumeration_items().unwrap_or_default();
         if !items.iter().any(|i| i.name == choice.name) {
@@ -284,24 +353,44 @@ impl<'a> StartValues<'a> {
         }
         self.set("filter", &choice.name)?;
         let presets = || description.presets.iter().filter(|p| p.filter == choice.name);
-        match presets().find(|p| p.name == choice.preset) {
+        let known: BTreeSet<&str> = presets().map(|p| p.name.as_str()).chain([PAPER]).collect();
+        let sets = tuned.clone();
+        // A tuned set holds what was searched; all else is as in the preset that the search started from.
+        let set = tuned.find(|t| t.name == choice.preset && !known.contains(choice.preset.as_str()));
+        let name = set.map_or(&choice.preset, |set| &set.preset);
+        match presets().find(|p| p.name == *name) {
             Some(preset) => {
                 for (variable, text) in &preset.sets {
                     self.set(variable, text)?;
                 }
             }
             // The paper's values are those the FMU starts with, so it need not list them.
-            None if choice.preset == PAPER => {}
-            None => {
-                let known: BTreeSet<&str> = presets().map(|p| p.name.as_str()).chain([PAPER]).collect();
-                return Err(HarnessError::UnknownPreset {
-                    filter: choice.name.clone(),
-                    preset: choice.preset.clone(),
-                    known: known.into_iter().collect::<Vec<_>>().join(", "),
-                });
-            }
+            None if name == PAPER => {}
+            None => return Err(unknown_preset(choice, known, sets)),
         }
+        set.map_or(Ok(()), |set| self.values_of(set))?;
         Ok(self)
+    }
+
+    /// A foreign filter has no presets but those from a search.
+    fn tuned<'t>(
+        mut self,
+        choice: &FilterChoice,
+        mut tuned: impl Iterator<Item = &'t TunedSet> + Clone,
+    ) -> Result<Self, HarnessError> {
+        let sets = tuned.clone();
+        let set = tuned
+            .find(|t| t.name == choice.preset)
+            .ok_or_else(|| unknown_preset(choice, BTreeSet::new(), sets))?;
+        self.values_of(set)?;
+        Ok(self)
+    }
+
+    fn values_of(&mut self, set: &TunedSet) -> Result<(), HarnessError> {
+        for (variable, value) in &set.values {
+            self.set(variable, &format!("{value:?}"))?;
+        }
+        Ok(())
     }
 
     fn assign(mut self, assignments: &[Assignment]) -> Result<Self, HarnessError> {
@@ -366,4 +455,17 @@ fn check_parameter(model: &Model, variable: &str) -> Result<(), HarnessError> {
         });
     }
     Ok(())
+}
+
+fn unknown_preset<'t>(
+    choice: &FilterChoice,
+    presets: BTreeSet<&str>,
+    tuned: impl Iterator<Item = &'t TunedSet>,
+) -> HarnessError {
+    let known: Vec<&str> = presets.into_iter().chain(tuned.map(|t| t.name.as_str())).collect();
+    HarnessError::UnknownPreset {
+        filter: choice.name.clone(),
+        preset: choice.preset.clone(),
+        known: known.join(", "),
+    }
 }

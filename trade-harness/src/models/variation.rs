@@ -166,7 +166,7 @@ impl Models {
                 draw,
             };
             let parts = std::iter::once(&mut *truth).chain(filters.iter_mut());
-            for part in parts.filter(|p| self.model_of(p).name == *name) {
+            for part in parts.filter(|p| self.model_of_part(p).name == *name) {
                 part.starts.retain(|(name, _)| *name != varied.name);
                 part.record.retain(|(name, _)| name != variable);
                 part.record.push((variable.clone(), distribution.to_string()));
@@ -177,8 +177,9 @@ impl Models {
     }
 
     /// The FMU of a part of a run.
-    fn model_of(&self, part: &Participant) -> &Model {
-        let named = self.foreign.iter().find(|m| m.name == part.label);
+    fn model_of_part(&self, part: &Participant) -> &Model {
+        let label = part.label.split('@').next().unwrap_or_default();
+        let named = self.foreign.iter().find(|m| m.name == label);
         let own = if part.label == TRUTH { None } else { self.nav.as_ref() };
         named.or(own).unwrap_or(&self.truth)
     }

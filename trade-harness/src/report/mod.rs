@@ -2,10 +2,12 @@
 //!
 //! Everything but `timing.csv` and the manifest's `environment` is a function of the study alone.
 
+pub mod best;
 pub mod claims;
 pub mod epochs;
 pub mod manifest;
 pub mod runs;
+pub mod searched;
 pub mod summary;
 pub mod table;
 pub mod timing;

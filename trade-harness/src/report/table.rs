@@ -48,12 +48,10 @@ pub fn number(value: Option<f64>) -> String {
 
 /// The table of one scenario, without a final newline.
 pub fn render(rows: &[SummaryRow], timings: &[TimingRow]) -> String {
-    let mut table = ruled();
-    table.set_header(HEADERS);
-    for row in rows {
+    let cells = rows.iter().map(|row| {
         let same = |t: &&TimingRow| t.scenario == row.scenario && t.filter == row.filter && t.case == row.case;
         let timing = timings.iter().find(same);
-        table.add_row([
+        vec![
             row.filter.clone(),
             number(row.pos_rmse_m),
             number(row.vel_rmse_m_s),
@@ -69,13 +67,18 @@ pub fn render(rows: &[SummaryRow], timings: &[TimingRow]) -> String {
             row.diverged.to_string(),
             number(timing.map(|t| t.nav_us_per_step)),
             timing.map_or_else(|| number(None), |t| format!("{:.1}", 100.0 * t.fmi_share)),
-        ]);
-    }
-    lines(&mut table, 1)
+        ]
+    });
+    plain_table(HEADERS, 1, cells)
 }
 
-/// An empty table with rules above, below and under the header.
-fn ruled() -> Table {
+/// A table with rules above, below and under the header; columns after the first `left` are aligned to the right. Without a
+/// final newline.
+pub(super) fn plain_table<H: Into<comfy_table::Cell>>(
+    headers: impl IntoIterator<Item = H>,
+    left: usize,
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> String {
     let rule = LineStyle::none().fill('─').junction('─');
     let mut table = Table::new();
     table.load_style(
@@ -84,11 +87,8 @@ fn ruled() -> Table {
             .header_separator(rule)
             .bottom_border(rule),
     );
-    table
-}
-
-/// The table as text; columns after the first `left` are aligned to the right.
-fn lines(table: &mut Table, left: usize) -> String {
+    table.set_header(headers.into_iter().collect::<Vec<_>>());
+    table.add_rows(rows);
     for (index, column) in table.column_iter_mut().enumerate() {
         column.set_padding((0, 1));
         if index >= left {
@@ -106,13 +106,12 @@ fn lines(table: &mut Table, left: usize) -> String {
 ///
 /// * `axes`: names of the axes of the results.
 pub fn render_axes(rows: &[SummaryRow], axes: [&str; 3]) -> String {
-    let mut table = ruled();
+    let mut table = Vec::new();
     let mut header = vec!["filter".to_owned(), "RMSE of".to_owned()];
     header.extend(axes.map(|axis| format!("{axis}\n")));
     header.push("standard error\nof the norm".to_owned());
     header.extend(axes.map(|axis| format!("ratio\n{axis}")));
     header.push("inside\n3 sigma [%]".to_owned());
-    table.set_header(header);
     for row in rows {
         for (name, prefix, unit) in [
             ("pos [m]", "pos", "m"),
@@ -127,10 +126,10 @@ pub fn render_axes(rows: &[SummaryRow], axes: [&str; 3]) -> String {
             cells.extend(axis(&format!("ratio_{prefix}"), ""));
             let inside = row.number(&format!("coverage_3s_{prefix}"));
             cells.push(inside.map_or_else(|| number(None), |share| format!("{:.2}", 100.0 * share)));
-            table.add_row(cells);
+            table.push(cells);
         }
     }
-    lines(&mut table, 2)
+    plain_table(header, 2, table)
 }
 
 /// One line for each claim, without a final newline.

@@ -1,5 +1,4 @@
 //! A world and filters in plain Rust whose errors are known in closed form.
-
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 use std::sync::Arc;
@@ -62,6 +61,9 @@ pub fn acceleration(axis: usize) -> f64 {
 /// Position sigma that the mock filter claims, m.
 pub const SIGMA: f64 = 0.5;
 
+/// Where a tunable filter is at its best.
+pub const BEST_GAIN: f64 = 2e-3;
+
 /// What a mock does apart from its work.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Quirk {
@@ -99,6 +101,12 @@ pub enum Quirk {
     EstimatesAcceleration,
     /// Its errors grow by the factor of the parameter `factor`.
     Scaled,
+    /// The estimate of a run claims a covariance with a negative variance, at sample 20 only.
+    BrokenCovariance {
+        run: i32,
+    },
+    /// Has a parameter `gain`; its errors are least where that is `BEST_GAIN`, and `Participant::set_real` sets it.
+    Tunable,
     /// Samples of multiples of five hold no measurement; the NIS output keeps a wild value then.
     Drops,
 }
@@ -185,6 +193,9 @@ impl Mock {
                 mock.vector(name);
             }
             return mock;
+        }
+        if quirk == Quirk::Tunable {
+            mock.port("gain", BaseType::Real, Causality::Parameter);
         }
         mock.vector("est.r_tc_n");
         mock.vector(if quirk == Quirk::NoVelocity {
@@ -281,13 +292,21 @@ impl Mock {
             return;
         }
         self.last = count;
-        let factor = self.at("factor").map_or(1.0, |at| self.reals[at]);
+        // Twice as large a decade away from the best gain; unset, a gain is zero.
+        let of_gain = match self.at("gain").map(|at| self.reals[at]) {
+            Some(gain) if gain > 0.0 => 1.0 + (gain / BEST_GAIN).log10().powi(2),
+            Some(_) => 3.0,
+            None => 1.0,
+        };
+        let factor = of_gain * self.at("factor").map_or(1.0, |at| self.reals[at]);
         if let Some(at) = self.at("est.acceleration_valid") {
             self.booleans[at] = count % 2 == 1;
         }
         for axis in 0..3 {
             let estimate = acceleration(axis) + 1e-6 * noise(run, count, axis);
             self.put(&format!("est.a_t_n[{}]", axis + 1), estimate);
+        }
+        for axis in 0..3 {
             let mut position = factor * noise(run, count, axis) + if axis == 0 { 100.0 } else { 0.0 };
             match self.quirk {
                 Quirk::NotFinite { run: r } if r == run && count > 7 => position = f64::NAN,
@@ -296,7 +315,7 @@ impl Mock {
             }
             self.put(&format!("est.r_tc_n[{}]", axis + 1), position);
             for name in ["est.v_tc_n", "their_v"] {
-                self.put(&format!("{name}[{}]", axis + 1), noise(run, count, axis));
+                self.put(&format!("{name}[{}]", axis + 1), factor * noise(run, count, axis));
             }
         }
         let tag = count - i32::from(self.quirk == Quirk::WrongTag);
@@ -309,6 +328,9 @@ impl Mock {
         self.put("nis", if measured { 6.0 } else { 1e6 });
         for i in 1..=6 {
             self.put(&format!("cov.p[{i},{i}]"), SIGMA * SIGMA);
+        }
+        if self.quirk == (Quirk::BrokenCovariance { run }) && count == 20 {
+            self.put("cov.p[2,2]", -1.0);
         }
     }
 }

@@ -201,6 +201,8 @@ pub(super) struct RawTool {
     pub(super) presets: Vec<RawPresets>,
     #[serde(rename = "Meaning", default)]
     pub(super) meanings: Vec<RawMeanings>,
+    #[serde(rename = "Searches", default)]
+    pub(super) searches: Vec<RawSearches>,
 }
 
 #[derive(Deserialize)]
@@ -243,6 +245,23 @@ pub(super) struct RawSet {
     pub(super) variable: Option<String>,
     #[serde(rename = "@value")]
     pub(super) value: Option<String>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct RawSearches {
+    #[serde(rename = "Search", default)]
+    pub(super) searches: Vec<RawSearch>,
+}
+
+// Numbers are text here: another tool's element of that name may hold anything.
+#[derive(Deserialize)]
+pub(super) struct RawSearch {
+    #[serde(rename = "@variable")]
+    pub(super) variable: Option<String>,
+    #[serde(rename = "@low")]
+    pub(super) low: Option<String>,
+    #[serde(rename = "@high")]
+    pub(super) high: Option<String>,
 }
 
 #[derive(Deserialize)]

@@ -5,15 +5,16 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::raw::{
-    RawCoSimulation, RawDescription, RawInteger, RawOnly, RawPreset, RawReal, RawSet, RawTypes, RawUnit, RawVariable,
+    RawCoSimulation, RawDescription, RawInteger, RawOnly, RawPreset, RawReal, RawSearch, RawSet, RawTypes, RawUnit,
+    RawVariable,
 };
 use crate::ImportError;
 use crate::description::{
     BaseUnit, Causality, CoSimulation, DefaultExperiment, DisplayUnit, EnumerationItem, EnumerationType, Initial,
-    LogCategory, Meaning, ModelDescription, Preset, Unit, Variability, Variable, VariableKind,
+    LogCategory, Meaning, ModelDescription, Preset, Search, Unit, Variability, Variable, VariableKind,
 };
 
-/// Name of the `<Tool>` whose vendor annotation tells of presets and meanings.
+/// Name of the `<Tool>` whose vendor annotation tells of presets, searches and meanings.
 const OUR_TOOL: &str = "trade-harness";
 
 /// Turns raw elements into the public types.
@@ -57,10 +58,13 @@ impl Resolver<'_> {
             variables.push(self.variable(variable, &types)?);
         }
 
-        let (mut presets, mut meanings) = (Vec::new(), Vec::new());
+        let (mut presets, mut searches, mut meanings) = (Vec::new(), Vec::new(), Vec::new());
         for tool in raw.vendor_annotations.tools.into_iter().filter(|t| t.name == OUR_TOOL) {
             for preset in tool.presets.into_iter().flat_map(|list| list.presets) {
                 presets.push(self.preset(preset)?);
+            }
+            for search in tool.searches.into_iter().flat_map(|list| list.searches) {
+                searches.push(self.search(search)?);
             }
             for only in tool.meanings.into_iter().flat_map(|list| list.only) {
                 meanings.push(self.meaning(only)?);
@@ -98,6 +102,7 @@ impl Resolver<'_> {
             variables,
             presets,
             meanings,
+            searches,
             index,
         })
     }
@@ -205,6 +210,23 @@ impl Resolver<'_> {
             filter: self.annotated(raw.filter, "an Only has no filter attribute")?,
             scenarios: scenarios.split(',').map(|name| name.trim().to_owned()).collect(),
             why: raw.why,
+        })
+    }
+
+    fn search(&self, raw: RawSearch) -> Result<Search, ImportError> {
+        let number = |text: Option<String>, what: &str| {
+            let text = self.annotated(text, &format!("a Search has no {what} attribute"))?;
+            let number = text.trim().parse::<f64>().ok();
+            number.ok_or_else(|| {
+                self.invalid(format!(
+                    "{OUR_TOOL} annotation: {what} {text:?} of a Search is no number"
+                ))
+            })
+        };
+        Ok(Search {
+            variable: self.annotated(raw.variable, "a Search has no variable attribute")?,
+            low: number(raw.low, "low")?,
+            high: number(raw.high, "high")?,
         })
     }
 }

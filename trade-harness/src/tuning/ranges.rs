@@ -1,0 +1,213 @@
+//! Which parameters of a filter are searched, and over which range.
+
+use cosim::Value;
+use fmi2_import::{BaseType, Causality, ModelDescription};
+
+use crate::HarnessError;
+use crate::models::{Assignment, Model, Participant, Range};
+
+/// Share of a range, counted in decades, that is called its edge.
+const EDGE: f64 = 0.05;
+/// Significant digits of a searched value: finer ones would mean nothing, and tables show them all.
+const DIGITS: i32 = 4;
+
+/// One parameter of a filter and the range it is searched over, on a logarithmic scale.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// Name of the parameter in its FMU.
+    pub variable: String,
+    /// Smallest value.
+    pub low: f64,
+    /// Largest value.
+    pub high: f64,
+    /// The value it starts from; `None` where that is not positive, as the -1 of "the scenario's own".
+    pub start: Option<f64>,
+}
+
+impl Axis {
+    /// The value at this fraction of the range, in four significant digits.
+    pub fn value(&self, fraction: f64) -> f64 {
+        let value = self.low * (self.high / self.low).powf(fraction);
+        rounded(value).clamp(self.low, self.high)
+    }
+
+    /// Where the starting value lies in the range, 0 to 1; outside counts as the nearer end.
+    pub fn start_fraction(&self) -> Option<f64> {
+        self.start.map(|value| self.fraction(value).clamp(0.0, 1.0))
+    }
+
+    /// `low` or `high` when the value lies in the outermost twentieth of the range, or outside.
+    pub fn edge(&self, value: f64) -> Option<&'static str> {
+        let fraction = self.fraction(value);
+        if fraction < EDGE {
+            Some("low")
+        } else if fraction > 1.0 - EDGE {
+            Some("high")
+        } else {
+            None
+        }
+    }
+
+    fn fraction(&self, value: f64) -> f64 {
+        (value / self.low).ln() / (self.high / self.low).ln()
+    }
+}
+
+fn rounded(value: f64) -> f64 {
+    // Through text, so that the number is the one nearest to its printed digits.
+    format!("{value:.*e}", (DIGITS - 1) as usize).parse().unwrap_or(value)
+}
+
+/// The parameters of one filter that are searched: those its FMU proposes, then those that `--range` adds.
+///
+/// * `filter`: the filter of fmu-nav; its parameters begin with its name. `None` for a foreign FMU, which is one filter.
+/// * `participant`: the filter as it would run without a search, for the values it starts from.
+/// * `fixed`: what `--set` says; that is not searched.
+///
+/// # Errors
+/// [`HarnessError::SearchRange`], [`HarnessError::NotSearchable`], [`HarnessError::SetAndSearched`], or a range beyond
+/// what the variable can take.
+pub fn axes(
+    model: &Model,
+    filter: Option<&str>,
+    participant: &Participant,
+    ranges: &[Range],
+    fixed: &[Assignment],
+) -> Result<Vec<Axis>, HarnessError> {
+    let description = model.fmu.description();
+    let own = |variable: &str| filter.is_none_or(|f| concerns(description, f, variable));
+    let is_set = |variable: &str| fixed.iter().any(|a| a.model == model.name && a.variable == variable);
+    let asked = || ranges.iter().filter(|r| r.model == model.name && own(&r.variable));
+    if let Some(both) = asked().find(|r| is_set(&r.variable)) {
+        return Err(HarnessError::SetAndSearched {
+            model: model.name.clone(),
+            variable: both.variable.clone(),
+        });
+    }
+    let proposed = description
+        .searches
+        .iter()
+        .filter(|s| own(&s.variable) && !is_set(&s.variable));
+    let mut chosen: Vec<(&str, f64, f64)> = proposed.map(|s| (s.variable.as_str(), s.low, s.high)).collect();
+    for range in asked() {
+        match chosen.iter_mut().find(|(variable, ..)| *variable == range.variable) {
+            Some(there) => (there.1, there.2) = (range.low, range.high),
+            None => chosen.push((&range.variable, range.low, range.high)),
+        }
+    }
+    chosen
+        .into_iter()
+        .map(|(variable, low, high)| {
+            check(model, variable, low, high)?;
+            Ok(Axis {
+                variable: variable.to_owned(),
+                low,
+                high,
+                start: start(description, participant, variable),
+            })
+        })
+        .collect()
+}
+
+/// Whether a parameter of fmu-nav acts on this filter: one under its own prefix does, and so does one under no filter's.
+pub fn concerns(nav: &ModelDescription, filter: &str, variable: &str) -> bool {
+    let prefix = variable.split('.').next().unwrap_or(variable);
+    let filters = nav
+        .get("filter")
+        .and_then(|v| v.enumeration_items())
+        .unwrap_or_default();
+    prefix == filter || !filters.iter().any(|i| i.name == prefix)
+}
+
+fn check(model: &Model, name: &str, low: f64, high: f64) -> Result<(), HarnessError> {
+    let variable = model.fmu.description().variable(name)?;
+    let of = |what: String| HarnessError::NotSearchable {
+        model: model.name.clone(),
+        variable: name.to_owned(),
+        what,
+    };
+    if variable.base_type() != BaseType::Real {
+        return Err(of(format!("has type {}", variable.base_type())));
+    }
+    if variable.causality != Causality::Parameter {
+        return Err(of(format!("has causality '{}'", variable.causality)));
+    }
+    if !(low > 0.0 && low < high && high.is_finite()) {
+        return Err(HarnessError::SearchRange {
+            model: model.name.clone(),
+            variable: name.to_owned(),
+            low,
+            high,
+        });
+    }
+    for end in [low, high] {
+        variable
+            .parse_value(&format!("{end:?}"))
+            .map_err(|source| HarnessError::Value {
+                model: model.name.clone(),
+                source: Box::new(source),
+            })?;
+    }
+    Ok(())
+}
+
+fn start(description: &ModelDescription, participant: &Participant, name: &str) -> Option<f64> {
+    let value = participant
+        .start(name)
+        .cloned()
+        .or_else(|| description.get(name)?.start())?;
+    match value {
+        Value::Real(value) if value > 0.0 => Some(value),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axis(start: Option<f64>) -> Axis {
+        Axis {
+            variable: "q".to_owned(),
+            low: 1e-6,
+            high: 1e-2,
+            start,
+        }
+    }
+
+    #[test]
+    fn the_scale_is_logarithmic_and_the_digits_few() {
+        let a = axis(None);
+        // A quarter of four decades is one, an eighth the root of ten.
+        for (fraction, value) in [(0.0, 1e-6), (0.25, 1e-5), (0.125, 3.162e-6), (1.0, 1e-2)] {
+            assert!(
+                (a.value(fraction) / value - 1.0).abs() < 1e-14,
+                "{fraction}: {}",
+                a.value(fraction)
+            );
+        }
+        // Rounding does not lead out of the range.
+        let odd = Axis {
+            low: 1.23456e-3,
+            high: 9.87654e-3,
+            ..axis(None)
+        };
+        assert!(odd.value(0.0) >= odd.low && odd.value(1.0) <= odd.high);
+    }
+
+    #[test]
+    fn a_start_beyond_the_range_counts_as_its_end() {
+        for (start, fraction) in [(1e-5, 0.25), (1.0, 1.0), (1e-9, 0.0)] {
+            assert!((axis(Some(start)).start_fraction().unwrap() - fraction).abs() < 1e-12);
+        }
+        assert_eq!(axis(None).start_fraction(), None);
+    }
+
+    #[test]
+    fn edges_are_the_outermost_twentieths() {
+        let a = axis(None);
+        // 0.05 of four decades is a factor 1.585.
+        let told = [1e-6, 1.5e-6, 1.7e-6, 6e-3, 6.5e-3, 1.0].map(|value| a.edge(value));
+        assert_eq!(told, [Some("low"), Some("low"), None, None, Some("high"), Some("high")]);
+    }
+}
