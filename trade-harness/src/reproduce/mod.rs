@@ -4,7 +4,7 @@
 //! that ours are held to. Those stand nowhere else, except for the claims of the venting scenarios, which `compare` holds
 //! as well. Where the runs come from is a [`Laboratory`]: FMUs, or mocks in tests.
 //!
-//! Start reading at [`line::Line`], then [`disturbance`], the shortest chapter.
+//! Start reading at [`Line`], then `disturbance.rs`, the shortest chapter.
 
 mod disturbance;
 mod learning;
