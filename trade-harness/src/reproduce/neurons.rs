@@ -56,7 +56,7 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
             Line::new(
                 NETWORK_PAPER,
                 "Sec. IV.B, number of neurons",
-                &format!("{FILTER} {name}, {neurons} neurons"),
+                &format!("{FILTER} {name}, neurons = {neurons}"),
                 unit,
             )
             .value(number(value))
