@@ -101,54 +101,81 @@ fn fmpy_simulates_each_fmu_alone() {
     }
 }
 
-/// Another master, another language, either scheme and several communication steps: the same bits for each sample.
-#[test]
-fn fmpy_couples_them_to_the_same_bits_as_the_harness() {
+/// Vectors of an estimate: the FMU's name, and name and unit in the harness's column.
+type Names = &'static [(&'static str, &'static str, &'static str)];
+
+/// Drives `filter` in `scenario` from FMPy with each scheme, step and stop time, and compares every sample with the harness.
+fn same_bits_from_both_masters(scenario: &str, filter: &str, samples: usize, names: Names, ways: &[[&str; 3]]) {
     let folder = tempfile::tempdir().unwrap();
     let reference = folder.path().join("harness.csv");
-    let chosen = ["--filters", "milton", "--run", "3", "--seed", "7"];
+    let chosen = ["--scenario", scenario, "--filters", filter, "--run", "3", "--seed", "7"];
     harness_ok(&[&["replay", "--out", text(&reference)], &chosen[..]].concat());
     let reference = read_csv(&reference);
-    assert_eq!(reference.len(), 5680);
+    assert_eq!(reference.len(), samples);
     let (truth, nav) = (fmu("fmu-truth"), fmu("fmu-nav"));
-    for (scheme, step, stop) in [
-        ("gauss-seidel", "1", "5680"),
-        ("gauss-seidel", "0.25", "700"),
-        ("gauss-seidel", "0.1", "400"),
-        ("jacobi", "1", "700"),
-        ("jacobi", "0.25", "400"),
-    ] {
+    for [scheme, step, stop] in ways {
         let out = folder.path().join(format!("{scheme}-{step}.csv"));
         let fmus = ["--truth", text(&truth), "--nav", text(&nav), "--out", text(&out)];
-        let how = [
-            "--scheme", scheme, "--step", step, "--stop", stop, "--filter", "milton", "--run", "3", "--seed", "7",
-        ];
-        if script("coupling", "couple.py", &[&fmus[..], &how[..]].concat()).is_none() {
+        let what = ["--scenario", scenario, "--filter", filter, "--run", "3", "--seed", "7"];
+        let how = ["--scheme", scheme, "--step", step, "--stop", stop];
+        if script("coupling", "couple.py", &[&fmus[..], &what[..], &how[..]].concat()).is_none() {
             return;
         }
         let rows = read_csv(&out);
         // A master that hands over one step late sees the last sample only after the end.
-        let late = usize::from(scheme == "jacobi");
+        let late = usize::from(*scheme == "jacobi");
         assert_eq!(rows.len(), stop.parse::<usize>().unwrap() - late, "{scheme} {step}");
         for (row, expected) in rows.iter().zip(&reference) {
             assert_eq!(row["est.count"], expected["sample"]);
-            for (theirs, ours, unit) in [
-                ("est.r_tc_n", "est_pos", "m"),
-                ("est.v_tc_n", "est_vel", "m_s"),
-                ("est.a_t_n", "est_acc", "m_s2"),
-                ("est.b_c_bc", "est_bias", "m_s2"),
-            ] {
+            for (theirs, ours, unit) in names {
                 for (i, axis) in ["x", "y", "z"].iter().enumerate() {
                     let theirs: f64 = row[&format!("{theirs}[{}]", i + 1)].parse().unwrap();
                     let ours: f64 = expected[&format!("{ours}_{axis}_{unit}")].parse().unwrap();
+                    let sample = &row["est.count"];
                     assert_eq!(
                         theirs.to_bits(),
                         ours.to_bits(),
-                        "{scheme} {step}: sample {}",
-                        row["est.count"]
+                        "{filter} {scheme} {step}: sample {sample}"
                     );
                 }
             }
         }
+    }
+}
+
+/// Another master, another language, either scheme and several communication steps: the same bits for each sample.
+#[test]
+fn fmpy_couples_them_to_the_same_bits_as_the_harness() {
+    let names: Names = &[
+        ("est.r_tc_n", "est_pos", "m"),
+        ("est.v_tc_n", "est_vel", "m_s"),
+        ("est.a_t_n", "est_acc", "m_s2"),
+        ("est.b_c_bc", "est_bias", "m_s2"),
+    ];
+    let ways = [
+        ["gauss-seidel", "1", "5680"],
+        ["gauss-seidel", "0.25", "700"],
+        ["gauss-seidel", "0.1", "400"],
+        ["jacobi", "1", "700"],
+        ["jacobi", "0.25", "400"],
+    ];
+    same_bits_from_both_masters("leo_venting", "milton", 5680, names, &ways);
+}
+
+/// The same where other sensors are wired: the relative state measured in full, the target's orbit, a learning network.
+#[test]
+fn fmpy_couples_the_formation_to_the_same_bits_as_the_harness() {
+    let names: Names = &[
+        ("est.rho_lvlh", "est_pos", "m"),
+        ("est.rho_dot_lvlh", "est_vel", "m_s"),
+        ("est.d_lvlh", "est_acc", "m_s2"),
+    ];
+    for filter in ["rbfnn_aekf", "observer", "ekf_j2"] {
+        let ways = [
+            ["gauss-seidel", "1", "700"],
+            ["gauss-seidel", "0.25", "200"],
+            ["jacobi", "0.5", "300"],
+        ];
+        same_bits_from_both_masters("formation", filter, 21939, names, &ways);
     }
 }

@@ -15,7 +15,10 @@ from fmpy.fmi2 import FMU2Slave
 
 WRITTEN = ["est.time", "est.count"] + [
     f"{name}[{i}]"
-    for name in ("est.r_tc_n", "est.v_tc_n", "est.a_t_n", "est.r_c_n", "est.v_c_n", "est.b_c_bc")
+    for name in (
+        *("est.r_tc_n", "est.v_tc_n", "est.a_t_n", "est.r_c_n", "est.v_c_n", "est.b_c_bc"),
+        *("est.rho_lvlh", "est.rho_dot_lvlh", "est.d_lvlh"),
+    )
     for i in (1, 2, 3)
 ]
 
