@@ -179,7 +179,7 @@ pub struct FilterEntry {
     pub tunables: &'static [Tunable],
     /// Named sets; the first is always `paper`.
     pub presets: &'static [Preset],
-    /// Real tunables that a search for the best tuning varies, each over decades.
+    /// Real tunables that a search for the best tuning varies.
     pub search: &'static [Search],
     /// Set when the filter has a meaning only where the main measurement is of one kind.
     pub only: Option<Only>,

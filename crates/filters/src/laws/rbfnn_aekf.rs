@@ -7,7 +7,7 @@
 use super::learner::Learner;
 use super::network::{self, Disturbance};
 use super::step_noise::{self, Q_POSITION, Q_VELOCITY};
-use super::{AccelerationModel, Adaptation, FilterEntry, Law, Setup, Step};
+use super::{AccelerationModel, Adaptation, FilterEntry, Law, Search, Setup, Step};
 use crate::FilterError;
 use crate::state::TargetMatrix;
 use crate::tunable::{Bound, Kind, Preset, Tunable};
@@ -84,6 +84,12 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         network::SEARCH_SHAPE,
         step_noise::SEARCH_Q_POSITION,
         step_noise::SEARCH_Q_VELOCITY,
+        // At 1 the filter does not adapt.
+        Search {
+            tunable: "alpha",
+            low: 0.9,
+            high: 1.0,
+        },
     ],
     only: None,
     build,
