@@ -3,7 +3,7 @@
 use crate::variables;
 use astro::TargetOrbit;
 use filters::laws::FILTERS;
-use filters::scenarios::SCENARIOS;
+use filters::scenarios::{Measures, SCENARIOS};
 use filters::state::State;
 use filters::{Navigator, Sample, Settings, Status};
 use fmi2_export::{Element, Experiment, Log, Model, ModelError, ModelInfo, Table, VendorAnnotation};
@@ -60,14 +60,17 @@ impl Model for NavModel {
         INFO.get_or_init(|| ModelInfo {
             model_name: "fmu-nav",
             model_identifier: "fmu_nav",
-            description: "Relative navigation filters of a chaser that approaches a venting target",
+            description: "Relative navigation filters of a chaser that does not know everything that acts on it and its target",
             version: env!("CARGO_PKG_VERSION"),
             license: "MIT",
             default_stop: SCENARIOS.first().map_or(1.0, |s| s.duration),
             default_step: 1.0,
             vendor_annotations: vec![VendorAnnotation {
                 tool: "trade-harness",
-                content: vec![presets(), searches(), meaning()],
+                content: Element::new("Filters")
+                    .child(presets())
+                    .child(searches())
+                    .child(meaning()),
             }],
             ..ModelInfo::default()
         })
@@ -130,6 +133,16 @@ impl Model for NavModel {
         let now = navigator.status();
         if now != before {
             log.event(format_args!("at t = {} s: {}", sample.time, status_name(now)));
+            let other = match navigator.measures() {
+                Measures::RangeAndBearing => inputs.metrology_valid,
+                Measures::RelativeState => inputs.lidar_valid,
+            };
+            if now == Status::Coasting && other {
+                log.event(format_args!(
+                    "the sample holds a measurement that scenario {} does not use: is the world in the same scenario?",
+                    self.settings.scenario()?.name
+                ));
+            }
         }
         Ok(())
     }

@@ -80,7 +80,7 @@ fn study(t: &mut Builder) {
         .parameter()
         .min(0)
         .start(1)
-        .about("seed of the study, for the random start of the adaptation")
+        .about("seed of the study, for the random start of an adaptation or a network")
         .rw(
             |m| m.settings.study_seed as i32,
             |m, v| m.settings.study_seed = v.unsigned_abs().into(),
@@ -126,6 +126,7 @@ fn real_parameter<'t>(
     row = match bound {
         Bound::Positive => row.positive(),
         Bound::NonNegative => row.min(0.0),
+        Bound::Fraction => row.min(0.0).max(1.0),
         Bound::Any => row,
     };
     match start {
@@ -263,7 +264,7 @@ fn beliefs(t: &mut Builder) {
         "of the circular orbit that the Clohessy-Wiltshire equations are written about",
         |b| &mut b.reference_orbit_semi_major_axis,
     );
-    let off_nominal = "factor on the process noise of the filter, or on its constant gain: for studies of mistuning";
+    let off_nominal = "factor on the process noise of the filter (that it starts from, if it adapts) or on its constant gain, for studies of mistuning";
     belief(t, "off_nominal", "1", Positive, off_nominal, |b| &mut b.off_nominal);
     belief(
         t,

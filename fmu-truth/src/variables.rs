@@ -77,7 +77,7 @@ fn parameter_row(t: &mut Builder, parameter: &'static Parameter) {
         .about(parameter.about)
         .start(parameter.start);
     let row = match parameter.unit {
-        "" => row,
+        "" => row.unit("1"),
         "rad" => row.unit("rad").display_unit("deg"),
         unit => row.unit(unit),
     };
@@ -168,6 +168,7 @@ fn sensors(t: &mut Builder) {
     t.real("dcm_bc_n")
         .output()
         .discrete()
+        .unit("1")
         .about("attitude of the chaser at the epoch: direction cosine matrix from axes N to chaser body axes")
         .matrix(3, 3, |m, i, j| m.read(|s| s.sample().dcm_bc_n[(i, j)]));
 }

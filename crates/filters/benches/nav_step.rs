@@ -1,5 +1,5 @@
-//! Time of one navigation step: every filter at its defaults, MILTON over the length of its buffer, the shapes of
-//! constrained_q; and the share of a law alone, with three measured rows and with six.
+//! Time of one navigation step: every filter at its defaults in a world of each kind, MILTON over the length of its buffer, the
+//! network over its neurons, the shapes of constrained_q; and the share of a law alone, with three measured rows and with six.
 //!
 //! `cargo bench -p filters` prints the time of one step, averaged over the same ten minutes of samples for each filter,
 //! so that the cost of MILTON's rare updates is spread over the steps between them, as in use.
@@ -8,13 +8,17 @@
 
 #[path = "../tests/common/mod.rs"]
 mod common;
+#[path = "../tests/formation/mod.rs"]
+mod formation;
 
 use common::OwnWorld;
 use criterion::{Bencher, Criterion, criterion_group, criterion_main};
 use filters::laws::{Adaptation, FILTERS, FilterEntry, Law, Setup, Step};
+use filters::scenarios::{Measures, SCENARIOS};
 use filters::state::{Rows, State, Target, TargetMatrix};
 use filters::tunable::{Tunable, Tunables, Value};
 use filters::{Navigator, Sample, Settings, Units};
+use formation::{Formation, World};
 use nalgebra::{Matrix3, Vector6};
 use numerics::{Source, stream};
 use rand_distr::{Distribution, StandardNormal};
@@ -25,6 +29,11 @@ const STEPS: u32 = 620;
 
 fn samples() -> (Vec<Sample>, State) {
     let (mut world, start) = OwnWorld::new(1, 1e-6);
+    ((0..STEPS).map(|_| world.step()).collect(), start)
+}
+
+fn samples_in_formation() -> (Vec<Sample>, State) {
+    let (mut world, start) = Formation::new(1);
     ((0..STEPS).map(|_| world.step()).collect(), start)
 }
 
@@ -51,12 +60,39 @@ fn benches(c: &mut Criterion) {
     let (samples, start) = samples();
     let mut group = c.benchmark_group("nav_step");
     group.sample_size(20);
-    for (filter, entry) in FILTERS.iter().enumerate() {
-        let settings = Settings {
-            filter,
+    let in_formation = samples_in_formation();
+    for (scenario, samples, start) in [
+        ("leo_venting", &samples, &start),
+        ("formation", &in_formation.0, &in_formation.1),
+    ] {
+        let scenario = SCENARIOS
+            .iter()
+            .position(|s| s.name == scenario)
+            .expect("the scenario is registered");
+        for (filter, entry) in FILTERS.iter().enumerate() {
+            if entry.no_meaning_in(&SCENARIOS[scenario]).is_some() {
+                continue;
+            }
+            let settings = Settings {
+                scenario,
+                filter,
+                ..Settings::default()
+            };
+            let name = format!("{} in {}", entry.name, SCENARIOS[scenario].name);
+            group.bench_function(name, |b| per_step(b, &settings, samples, start));
+        }
+    }
+    for neurons in [1, 60, 240] {
+        let mut settings = Settings {
+            filter: position("rbfnn_ekf"),
             ..Settings::default()
         };
-        group.bench_function(entry.name, |b| per_step(b, &settings, &samples, &start));
+        if let Some(value) = settings.tunable_mut("rbfnn_ekf", "neurons") {
+            *value = Value::Integer(neurons);
+        }
+        group.bench_function(format!("rbfnn_ekf neurons={neurons}"), |b| {
+            per_step(b, &settings, &samples, &start)
+        });
     }
     for m_b in [3, 10, 30, 60] {
         let filter = position("milton");
@@ -154,7 +190,13 @@ fn law(entry: &'static FilterEntry, rows: usize, shape: usize) -> Law {
         },
         rows,
         r: Vector6::from_fn(|row, _| f64::from(row < rows)),
+        measures: if rows == 3 {
+            Measures::RangeAndBearing
+        } else {
+            Measures::RelativeState
+        },
         units: Units::SI,
+        off_nominal: 1.0,
         study_seed: 1,
         run: 0,
     };

@@ -35,7 +35,8 @@ pub struct Beliefs {
     pub r_sigma_velocity: f64,
     /// Semi-major axis of the circular orbit that Clohessy-Wiltshire is written about, m.
     pub reference_orbit_semi_major_axis: f64,
-    /// Factor on the process noise of every law, or on an observer's gain: 1 unless mistuning is studied.
+    /// Factor on the process noise that a law has (that it starts from, if it adapts) or on an observer's gain: 1 unless
+    /// mistuning is studied.
     pub off_nominal: f64,
     /// Zonal gravity: gravitational parameter, m3/s2.
     pub gravity_mu: f64,

@@ -1,7 +1,9 @@
-//! The extended Kalman filter: propagation and update of 18 states with consider states and dual accelerometer use.
+//! The extended Kalman filter: the update of any states, some of which may be consider states, and the propagation of the 18
+//! states of a world seen by range and angles, with dual accelerometer use.
 //!
 //! Pure functions of state and covariance; which samples arrive and what a law makes of them is [`crate::Navigator`]'s.
 
+use crate::FilterError;
 use crate::gravity::Gravity;
 use crate::laws::network::Disturbance;
 use crate::state::{LidarRows, N, State, StateMatrix, TargetMatrix, idx};
@@ -193,6 +195,27 @@ pub struct Measurement<const M: usize, const D: usize = N> {
 pub struct NotSpd {
     /// Smallest diagonal entry of S.
     pub min_diagonal: f64,
+}
+
+impl NotSpd {
+    /// As the error of the sample at this epoch.
+    pub(crate) fn at(self, t_s: f64) -> FilterError {
+        FilterError::InnovationNotSpd {
+            t_s,
+            min_diagonal: self.min_diagonal,
+        }
+    }
+}
+
+/// Normalised innovation squared: innovation^T S^-1 innovation.
+///
+/// # Errors
+/// [`NotSpd`] when S cannot be factored.
+pub fn normalised<const M: usize>(s: &SMatrix<f64, M, M>, innovation: &SVector<f64, M>) -> Result<f64, NotSpd> {
+    let l = spd::cholesky(s).ok_or(NotSpd {
+        min_diagonal: s.diagonal().min(),
+    })?;
+    Ok(spd::forward_substitution(&l, innovation).norm_squared())
 }
 
 /// Measurement update, Eqs. (6) and (12): gain with the rows of the consider states zeroed, covariance in Joseph form,

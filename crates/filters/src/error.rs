@@ -29,12 +29,6 @@ pub enum FilterError {
         /// Reason.
         why: &'static str,
     },
-    /// A scenario whose relative state is measured in full, but whose gravity is not that of the Earth.
-    #[error("scenario {scenario}: relative motion in LVLH needs zonal gravity")]
-    NoRelativeModel {
-        /// Scenario.
-        scenario: &'static str,
-    },
     /// The target's orbit, which the filter's dynamics need, is missing.
     #[error(
         "at t = {t_s} s target_orbit.r = {r} m and target_orbit.h = {h} m2/s: connect target_orbit.*, both must be positive"
@@ -76,6 +70,14 @@ pub enum FilterError {
     /// The first sample arrived and no initial estimate had been given.
     #[error("nav_init.x is all zero when sample 1 at t = {t_s} s arrives: connect or set nav_init.x[1..18]")]
     NoInitialEstimate {
+        /// Epoch of the sample, s.
+        t_s: f64,
+    },
+    /// The initial estimate has no chaser in it.
+    #[error(
+        "nav_init.x[10..12], the chaser's position, is zero when the first sample arrives at t = {t_s} s: is the world in the same scenario as the filter?"
+    )]
+    NoChaserPosition {
         /// Epoch of the sample, s.
         t_s: f64,
     },
@@ -136,11 +138,11 @@ pub enum FilterError {
         t_s: f64,
     },
     /// Rounding has made a variance negative.
-    #[error("at t = {t_s} s the variance of state {state} of 18 (order of nav_init.x) has become negative")]
+    #[error("at t = {t_s} s the variance of state {state} (in the order of cov.sigma) has become negative")]
     NegativeVariance {
         /// Epoch, s.
         t_s: f64,
-        /// Which state, from 1, in the order of `nav_init.x`.
+        /// Which state, from 1, in the order of `cov.sigma`.
         state: usize,
     },
     /// The information matrix of an adaptation could not be inverted.

@@ -1,7 +1,9 @@
 //! Navigation filters: one extended Kalman filter and, plugged into it, one file per adaptation law.
 //!
 //! * [`Navigator`] takes sensor samples one by one and holds the estimate; start reading there.
-//! * [`ekf`] propagates and updates; it is written once, so a difference in results is a difference in the law.
+//! * [`ekf`] updates, for all; it is written once, so a difference in results is a difference in the law.
+//! * `plants` holds what is estimated and how it is measured: range and angles with 18 states, or the relative state in full
+//!   with nine.
 //! * [`laws`] holds the laws and their registry: adding a filter is one file and one line.
 //! * [`scenarios`] holds what a filter believes of each world: gravity, initial covariance, defaults of the laws.
 //!

@@ -237,12 +237,12 @@ impl Navigator {
             });
         }
         let plant = self.plant.get_mut();
-        plant.check(sample, &self.law)?;
+        plant.check(sample)?;
         if !plant.started() {
             if nav_init.iter().all(|v| *v == 0.0) {
                 return Err(FilterError::NoInitialEstimate { t_s });
             }
-            plant.start(nav_init, &self.law);
+            plant.start(nav_init, &self.law, t_s)?;
             self.law.look_ahead(&plant.relative());
         }
 
@@ -284,7 +284,7 @@ impl Navigator {
             let normalised = seen.nis / self.measures.rows() as f64;
             self.divergence.mean += (normalised - self.divergence.mean) / self.divergence.samples;
         }
-        self.status = if self.divergence.mean > self.divergence.limit {
+        self.status = if self.dimension() > 0 && self.divergence.mean > self.divergence.limit {
             Status::Diverged
         } else {
             Status::Tracking
@@ -328,7 +328,7 @@ impl Navigator {
             || self.law.relative_model() != RelativeModel::ClohessyWiltshire
     }
 
-    /// Square root of the jerk density in use, axes N, m/s^2.5; zero for a law without one.
+    /// Square root of the jerk density in use, axes of the estimate, m/s^2.5; zero for a law without one.
     pub fn s(&self) -> Vector3<f64> {
         self.law.s().map(|s| s.abs() * self.units.root_jerk_density())
     }

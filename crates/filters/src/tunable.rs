@@ -1,6 +1,7 @@
 //! Tunables of a law: what the FMU offers as parameters under the law's own prefix, and how the law reads them.
 
 use crate::FilterError;
+use crate::scenarios::{Defaults, default_of};
 use serde::{Deserialize, Serialize};
 
 /// The range of a real tunable.
@@ -10,6 +11,8 @@ pub enum Bound {
     Positive,
     /// Zero or greater.
     NonNegative,
+    /// From zero to one.
+    Fraction,
     /// Any finite value.
     Any,
 }
@@ -23,6 +26,7 @@ impl Bound {
         let (fits, permitted) = match self {
             Self::Positive => (value > 0.0, "greater than 0"),
             Self::NonNegative => (value >= 0.0, "0 or greater"),
+            Self::Fraction => ((0.0..=1.0).contains(&value), "0 to 1"),
             Self::Any => (true, "finite"),
         };
         if fits && value.is_finite() {
@@ -130,7 +134,7 @@ pub struct Tunables<'a> {
     /// Name of the scenario, for messages.
     pub scenario: &'static str,
     /// The scenario's own values by full name.
-    pub defaults: &'static [(&'static str, f64)],
+    pub defaults: Defaults,
 }
 
 impl Tunables<'_> {
@@ -156,12 +160,10 @@ impl Tunables<'_> {
             return Err(self.mistyped(full));
         };
         let value = if start.is_none() && value == crate::Beliefs::OWN {
-            let own = self.defaults.iter().find(|(n, _)| *n == full);
-            own.ok_or(FilterError::NoScenarioDefault {
+            default_of(self.defaults, &full).ok_or(FilterError::NoScenarioDefault {
                 name: full.clone(),
                 scenario: self.scenario,
             })?
-            .1
         } else {
             value
         };

@@ -171,6 +171,25 @@ fn dropouts_coast_and_gaps_are_bridged() {
     }
 }
 
+/// A master may hand over one sample in ten or sixty: the filter must cross the gaps, and not learn itself into ruin.
+#[test]
+fn long_intervals_are_survived() {
+    for every in [10, 30, 60] {
+        for (label, mut nav, mut world, start) in everywhere(6, 1e-7) {
+            for k in 1..=6000 {
+                let sample = world.step();
+                if k % every == 0 {
+                    nav.process(&sample, &start).unwrap();
+                }
+            }
+            let miss = (nav.estimate().x.fixed_rows::<9>(0) - world.truth())
+                .fixed_rows::<3>(0)
+                .norm();
+            assert!(miss < 20.0, "{label}, every {every} s: {miss} m");
+        }
+    }
+}
+
 /// The J2 filter is told the model of its world: with next to no process noise it must be consistent there.
 #[test]
 fn the_j2_filter_is_consistent_in_a_j2_world() {
@@ -271,6 +290,30 @@ fn the_j2_filter_asks_for_the_orbit() {
     assert!(error.contains("target_orbit.r = 0 m"), "{error}");
 }
 
+/// The observer has no process noise: the factor acts on its gain, K = 1 - exp(-f k h) with k = 0.42 and 0.025 per second.
+#[test]
+fn off_nominal_scales_the_gain_of_the_observer() {
+    for factor in [0.1_f64, 1.0, 10.0] {
+        let mut chosen = settings("observer", 0);
+        chosen.scenario = SCENARIOS.iter().position(|s| s.name == "formation").unwrap();
+        chosen.beliefs.off_nominal = factor;
+        let (mut world, start) = Formation::new(0);
+        let mut nav = Navigator::new(&chosen, 0.0).unwrap();
+        let sample = world.step();
+        nav.process(&sample, &start).unwrap();
+        let left = sample.metrology.unwrap() - nav.estimate().x.fixed_rows::<6>(0);
+        for i in 0..6 {
+            let k: f64 = if i < 3 { 0.42 } else { 0.025 };
+            let expected = (-factor * k).exp() * nav.innovation().residual[i];
+            assert!(
+                (left[i] - expected).abs() < 1e-12,
+                "factor {factor}, row {i}: {} {expected}",
+                left[i]
+            );
+        }
+    }
+}
+
 /// One factor on the process noise, whatever the law calls it.
 #[test]
 fn off_nominal_scales_the_process_noise() {
@@ -280,13 +323,14 @@ fn off_nominal_scales_the_process_noise() {
         (chosen.scenario, chosen.beliefs.off_nominal) = (scenario, off_nominal);
         let (mut world, start) = Formation::new(0);
         let mut nav = Navigator::new(&chosen, 0.0).unwrap();
-        (0..100).for_each(|_| nav.process(&world.step(), &start).unwrap());
+        (0..400).for_each(|_| nav.process(&world.step(), &start).unwrap());
         nav.estimate().sigma[3]
     };
-    for filter in ["fixed_q", "snc", "dmc", "rbfnn_ekf", "ekf_j2"] {
+    // The adaptive filter starts with it and forgets it within a thousand samples.
+    for filter in ["fixed_q", "snc", "dmc", "rbfnn_aekf", "rbfnn_ekf", "ekf_j2"] {
         let (less, as_said, more) = (sigma(filter, 0.1), sigma(filter, 1.0), sigma(filter, 10.0));
         assert!(
-            less < 0.9 * as_said && as_said < 0.9 * more,
+            less < 0.97 * as_said && as_said < 0.97 * more,
             "{filter}: {less} {as_said} {more}"
         );
     }

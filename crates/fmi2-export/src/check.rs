@@ -36,7 +36,7 @@ impl Checked for f64 {
         }
         match &variable.typed {
             Typed::Real { bounds, unit, .. } if !bounds.admit(*value) => {
-                let unit = unit.as_deref().unwrap_or_default();
+                let unit = unit.as_deref().filter(|unit| *unit != "1").unwrap_or_default();
                 Err(CallError::OutOfBounds {
                     name: variable.name.clone(),
                     value: format!("{value:?} {unit}").trim_end().to_owned(),

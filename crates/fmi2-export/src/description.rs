@@ -159,7 +159,7 @@ fn vendor_annotations(info: &ModelInfo) -> Option<Element> {
     let tools = info.vendor_annotations.iter().map(|annotation| {
         Element::new("Tool")
             .attribute("name", annotation.tool)
-            .children(annotation.content.iter().cloned())
+            .child(annotation.content.clone())
     });
     section("VendorAnnotations", tools)
 }

@@ -85,6 +85,6 @@ pub struct ModelInfo {
 pub struct VendorAnnotation {
     /// Name of the tool that reads it.
     pub tool: &'static str,
-    /// What stands inside.
-    pub content: Vec<Element>,
+    /// What stands inside: the schema permits one element.
+    pub content: Element,
 }

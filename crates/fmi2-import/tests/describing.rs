@@ -38,7 +38,7 @@ const XML: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
   <DefaultExperiment startTime="0" stopTime="5680" stepSize="1"/>
   <VendorAnnotations>
     <Tool name="another"><Presets kind="other"><Preset/><Stray/></Presets><Searches><Search low="far"/></Searches><x:y xmlns:x="urn:x">text</x:y></Tool>
-    <Tool name="trade-harness"><Presets>
+    <Tool name="trade-harness"><Filters><Presets>
       <Preset filter="milton" name="paper" about="as published"/>
       <Preset filter="milton" name="consistent" about="as derived">
         <Set variable="milton.residuals" value="consistent"/>
@@ -48,7 +48,7 @@ const XML: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
       <Only filter="observer" scenarios="formation, far" why="it needs the state measured in full"/>
     </Meaning><Searches>
       <Search variable="gate" low="1e-7" high=" 0.01"/>
-    </Searches></Tool>
+    </Searches></Filters></Tool>
   </VendorAnnotations>
   <ModelVariables>
     <ScalarVariable name="gate" valueReference="7" description="a bound" causality="parameter" variability="fixed" initial="exact">

@@ -1,6 +1,6 @@
 //! Dynamic model compensation: the acceleration state is a first-order Gauss-Markov process.
 
-use super::{AccelerationModel, Adaptation, FilterEntry, Law, Search, Setup, Step};
+use super::{AccelerationModel, Adaptation, FilterEntry, Law, Search, Setup};
 use crate::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
@@ -79,10 +79,6 @@ impl Adaptation for Dmc {
 
     fn process_noise(&self, dt: f64) -> TargetMatrix {
         jerk::gauss_markov(self.s * self.s, self.beta, dt)
-    }
-
-    fn observe(&mut self, _step: Step) -> Result<(), FilterError> {
-        Ok(())
     }
 
     fn s(&self) -> Vector3<f64> {

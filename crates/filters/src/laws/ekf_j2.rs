@@ -2,12 +2,11 @@
 //! Silvestrini and Lavagna.
 
 use super::step_noise::{self, Q_POSITION, Q_VELOCITY};
-use super::{AccelerationModel, Adaptation, FilterEntry, Law, Only, RelativeModel, Setup, Step};
+use super::{AccelerationModel, Adaptation, FilterEntry, Law, Only, RelativeModel, Setup};
 use crate::FilterError;
 use crate::scenarios::Measures;
 use crate::state::TargetMatrix;
 use crate::tunable::Preset;
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
@@ -51,13 +50,5 @@ impl Adaptation for EkfJ2 {
 
     fn process_noise(&self, dt: f64) -> TargetMatrix {
         self.q * dt
-    }
-
-    fn observe(&mut self, _step: Step) -> Result<(), FilterError> {
-        Ok(())
-    }
-
-    fn s(&self) -> Vector3<f64> {
-        Vector3::zeros()
     }
 }

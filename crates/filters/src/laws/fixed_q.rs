@@ -1,6 +1,6 @@
 //! No adaptation: an acceleration state driven by jerk of constant density. The yardstick for every other law.
 
-use super::{Adaptation, FilterEntry, Law, Search, Setup, Step};
+use super::{Adaptation, FilterEntry, Law, Search, Setup};
 use crate::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
@@ -30,6 +30,11 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "small",
             about: "s = 1e-6 m/s^2.5, about the size of the vents",
             sets: &[("s", "1e-6")],
+        },
+        Preset {
+            name: "slow",
+            about: "s = 1e-8 m/s^2.5, for a disturbance that swings by 1e-6 m/s2 within a thousand seconds",
+            sets: &[("s", "1e-8")],
         },
     ],
     search: &[
@@ -61,10 +66,6 @@ pub struct FixedQ {
 impl Adaptation for FixedQ {
     fn process_noise(&self, dt: f64) -> TargetMatrix {
         jerk::process_noise(&Vector3::repeat(self.s * self.s), dt)
-    }
-
-    fn observe(&mut self, _step: Step) -> Result<(), FilterError> {
-        Ok(())
     }
 
     fn s(&self) -> Vector3<f64> {

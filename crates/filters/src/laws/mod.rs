@@ -108,10 +108,14 @@ pub trait Adaptation {
     ///
     /// # Errors
     /// When the law cannot go on; the filter stops with it.
-    fn observe(&mut self, step: Step) -> Result<(), FilterError>;
+    fn observe(&mut self, _step: Step) -> Result<(), FilterError> {
+        Ok(())
+    }
 
-    /// Square root of the jerk density per axis N now in use, internal units.
-    fn s(&self) -> Vector3<f64>;
+    /// Square root of the jerk density per axis of the estimate now in use, internal units; zero for a law without one.
+    fn s(&self) -> Vector3<f64> {
+        Vector3::zeros()
+    }
 
     /// How often the law has changed its mind.
     fn updates(&self) -> i32 {

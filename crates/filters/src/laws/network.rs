@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 const INPUTS: usize = 6;
 
 /// The tunables that every law with a network declares, before its own.
-const TUNABLES: [Tunable; 8] = [
+const TUNABLES: [Tunable; 9] = [
     Tunable {
         name: "neurons",
         about: "neurons of the hidden layer",
@@ -34,9 +34,14 @@ const TUNABLES: [Tunable; 8] = [
         kind: real(None, "1/s2", Bound::NonNegative),
     },
     Tunable {
+        name: "gain_limit",
+        about: "most of a velocity error that one step of learning turns into acceleration over the interval; beyond some tenths the loop of network and filter is unstable, at long intervals or with few neurons",
+        kind: real(Some(0.05), "1", Bound::Positive),
+    },
+    Tunable {
         name: "relaxation",
         about: "factor on the weights at each step, psi of Eq. (18)",
-        kind: real(None, "1", Bound::NonNegative),
+        kind: real(None, "1", Bound::Fraction),
     },
     Tunable {
         name: "start_weights",
@@ -203,6 +208,11 @@ impl Network {
         }
     }
 
+    /// Sum of the squares of the normalised basis where it was evaluated last: what one unit of `delta` moves the output by.
+    pub fn response(&self) -> f64 {
+        self.phi.iter().map(|phi| phi * phi).sum()
+    }
+
     /// Eq. (18): W+ = psi W + Phi delta^T with the basis of the last [`Network::evaluate`].
     ///
     /// * `delta`: interval times learning rate times velocity error, m/s2.
@@ -283,7 +293,7 @@ mod tests {
         let x = Vector6::from(AT);
         let mut n = network(0.3);
         let before = n.evaluate(&x).d;
-        let squared: f64 = n.phi.iter().map(|p| p * p).sum();
+        let squared = n.response();
         let delta = Vector3::new(0.1, -0.2, 0.3);
         n.learn(&delta);
         let expected = before * n.relaxation + delta * squared;

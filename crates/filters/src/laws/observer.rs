@@ -7,13 +7,13 @@ use crate::FilterError;
 use crate::scenarios::Measures;
 use crate::state::TargetMatrix;
 use crate::tunable::{Bound, Kind, Preset, Tunable};
-use nalgebra::{Vector3, Vector6};
+use nalgebra::Vector6;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "observer",
     about: "constant-gain observer with a learning radial-basis network, no covariance (Pesce, Silvestrini and Lavagna)",
-    tunables: &network::with::<2, 10>([
+    tunables: &network::with::<2, 11>([
         Tunable {
             name: "k_position",
             about: "gain on position, K_h of Eq. (33)",
@@ -103,9 +103,5 @@ impl Adaptation for Observer {
 
     fn disturbance(&self) -> Option<&Disturbance> {
         Some(self.learner.disturbance())
-    }
-
-    fn s(&self) -> Vector3<f64> {
-        Vector3::zeros()
     }
 }

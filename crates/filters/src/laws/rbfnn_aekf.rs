@@ -11,13 +11,13 @@ use super::{AccelerationModel, Adaptation, FilterEntry, Law, Search, Setup, Step
 use crate::FilterError;
 use crate::state::TargetMatrix;
 use crate::tunable::{Bound, Kind, Preset, Tunable};
-use nalgebra::{Vector3, Vector6};
+use nalgebra::Vector6;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "rbfnn_aekf",
     about: "a radial-basis network learns the disturbance, innovations adapt Q (Pesce, Silvestrini and Lavagna)",
-    tunables: &network::with::<6, 14>([
+    tunables: &network::with::<6, 15>([
         Q_POSITION,
         Q_VELOCITY,
         Tunable {
@@ -26,7 +26,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             kind: Kind::Real {
                 start: Some(0.999),
                 unit: "1",
-                bound: Bound::Positive,
+                bound: Bound::Fraction,
             },
         },
         Tunable {
@@ -87,7 +87,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         // At 1 the filter does not adapt.
         Search {
             tunable: "alpha",
-            low: 0.9,
+            low: 0.5,
             high: 1.0,
         },
     ],
@@ -97,15 +97,6 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
 
 fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
     let t = &setup.tunables;
-    let alpha = t.real("alpha")?;
-    if alpha > 1.0 {
-        return Err(FilterError::OutOfRange {
-            name: "rbfnn_aekf.alpha".into(),
-            value: alpha,
-            unit: "",
-            permitted: "greater than 0, 1 at most".into(),
-        });
-    }
     let floor = step_noise::diagonal(
         t.real("floor_position")? * setup.units.time / setup.units.length.powi(2),
         t.real("floor_velocity")? * setup.units.time / setup.units.velocity().powi(2),
@@ -113,7 +104,7 @@ fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
     Ok(RbfnnAekf {
         learner: Learner::new(setup)?,
         q: step_noise::rate(setup)?,
-        alpha,
+        alpha: t.real("alpha")?,
         floor: (t.choice("adaptation")? == 1).then_some(floor),
         updates: 0,
     }
@@ -167,10 +158,6 @@ impl Adaptation for RbfnnAekf {
 
     fn disturbance(&self) -> Option<&Disturbance> {
         Some(self.learner.disturbance())
-    }
-
-    fn s(&self) -> Vector3<f64> {
-        Vector3::zeros()
     }
 
     fn updates(&self) -> i32 {

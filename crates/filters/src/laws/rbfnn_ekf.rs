@@ -7,13 +7,13 @@ use super::{AccelerationModel, Adaptation, FilterEntry, Law, Setup, Step};
 use crate::FilterError;
 use crate::state::TargetMatrix;
 use crate::tunable::Preset;
-use nalgebra::{Vector3, Vector6};
+use nalgebra::Vector6;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "rbfnn_ekf",
     about: "a radial-basis network learns the disturbance, constant Q (Pesce, Silvestrini and Lavagna)",
-    tunables: &network::with::<2, 10>([Q_POSITION, Q_VELOCITY]),
+    tunables: &network::with::<2, 11>([Q_POSITION, Q_VELOCITY]),
     presets: &[Preset {
         name: "paper",
         about: "the Q that the adaptive filter starts with, as in the paper",
@@ -65,9 +65,5 @@ impl Adaptation for RbfnnEkf {
 
     fn disturbance(&self) -> Option<&Disturbance> {
         Some(self.learner.disturbance())
-    }
-
-    fn s(&self) -> Vector3<f64> {
-        Vector3::zeros()
     }
 }

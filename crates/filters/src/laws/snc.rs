@@ -1,11 +1,10 @@
 //! State noise compensation: no acceleration state, white acceleration of constant density.
 
-use super::{AccelerationModel, Adaptation, FilterEntry, Law, Search, Setup, Step};
+use super::{AccelerationModel, Adaptation, FilterEntry, Law, Search, Setup};
 use crate::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
 use crate::tunable::{Bound, Kind, Preset, Tunable};
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
@@ -59,13 +58,5 @@ impl Adaptation for Snc {
 
     fn process_noise(&self, dt: f64) -> TargetMatrix {
         jerk::white_acceleration(self.q * self.q, dt)
-    }
-
-    fn observe(&mut self, _step: Step) -> Result<(), FilterError> {
-        Ok(())
-    }
-
-    fn s(&self) -> Vector3<f64> {
-        Vector3::zeros()
     }
 }

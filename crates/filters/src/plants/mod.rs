@@ -41,10 +41,10 @@ pub(crate) struct Reported {
 /// The filter's state and what it knows of motion and sensors.
 pub(crate) trait Estimator {
     /// Refuses a sample that makes no sense, before anything changes.
-    fn check(&self, sample: &Sample, law: &Law) -> Result<(), FilterError>;
+    fn check(&self, sample: &Sample) -> Result<(), FilterError>;
 
-    /// Takes the initial estimate, SI.
-    fn start(&mut self, nav_init: &State, law: &Law);
+    /// Takes the initial estimate, SI, when the first sample arrives at `t_s`.
+    fn start(&mut self, nav_init: &State, law: &Law, t_s: f64) -> Result<(), FilterError>;
 
     /// Whether [`Estimator::start`] has been called.
     fn started(&self) -> bool;
@@ -95,7 +95,7 @@ impl Plant {
     pub(crate) fn noise(scenario: &ScenarioEntry, beliefs: &Beliefs) -> Result<Vector6<f64>, FilterError> {
         match scenario.measures {
             Measures::RangeAndBearing => range_and_bearing::noise(scenario, beliefs),
-            Measures::RelativeState => relative_state::noise(scenario, beliefs),
+            Measures::RelativeState => relative_state::noise(beliefs),
         }
     }
 

@@ -12,7 +12,6 @@ use crate::state::{LidarRows, N, Rows, State, TargetMatrix, idx};
 use crate::tunable::Bound;
 use crate::units::Units;
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3, Vector6};
-use numerics::spd;
 use serde::{Deserialize, Serialize};
 
 /// The filter's knowledge of both vehicles, internal units.
@@ -89,7 +88,7 @@ fn bias_rows<const M: usize>(first: usize, h: &mut SMatrix<f64, M, N>) {
 }
 
 impl Estimator for RangeAndBearing {
-    fn check(&self, sample: &Sample, _law: &Law) -> Result<(), FilterError> {
+    fn check(&self, sample: &Sample) -> Result<(), FilterError> {
         let defect = (sample.dcm_bc_n * sample.dcm_bc_n.transpose() - Matrix3::identity()).amax();
         if defect.is_nan() || defect > 1e-6 {
             let t_s = sample.time;
@@ -98,7 +97,10 @@ impl Estimator for RangeAndBearing {
         Ok(())
     }
 
-    fn start(&mut self, nav_init: &State, law: &Law) {
+    fn start(&mut self, nav_init: &State, law: &Law, t_s: f64) -> Result<(), FilterError> {
+        if nav_init.fixed_rows::<3>(idx::R_C.start).iter().all(|v| *v == 0.0) {
+            return Err(FilterError::NoChaserPosition { t_s });
+        }
         let mut core = ekf::Gaussian {
             x: State::from_fn(|i, _| nav_init[i] / self.units.of_state(i)),
             p: self.initial_p.covariance(),
@@ -108,6 +110,7 @@ impl Estimator for RangeAndBearing {
             idx::A_T.for_each(|i| core.p[(i, i)] = 0.0);
         }
         self.core = Some(core);
+        Ok(())
     }
 
     fn started(&self) -> bool {
@@ -133,10 +136,6 @@ impl Estimator for RangeAndBearing {
             alpha_c_bc: alpha,
             dcm_n_bc: sample.dcm_bc_n.transpose(),
         });
-        let not_spd = |e: ekf::NotSpd| FilterError::InnovationNotSpd {
-            t_s,
-            min_diagonal: e.min_diagonal,
-        };
         let mut updated = Updated {
             h: Rows::zeros(),
             innovation: Vector6::zeros(),
@@ -151,7 +150,7 @@ impl Estimator for RangeAndBearing {
                 let mut h = SMatrix::<f64, 3, N>::zeros();
                 bias_rows(0, &mut h);
                 let (innovation, r) = (bias_innovation, Vector3::repeat(self.r_accelerometer));
-                ekf::update(core, &Measurement { h, innovation, r }, idx::CONSIDER).map_err(not_spd)?;
+                ekf::update(core, &Measurement { h, innovation, r }, idx::CONSIDER).map_err(|e| e.at(t_s))?;
             }
             updated.correction = (core.x - prior).fixed_rows::<9>(0).into_owned();
             return Ok(updated);
@@ -170,7 +169,7 @@ impl Estimator for RangeAndBearing {
             let mut h = SMatrix::<f64, 3, N>::zeros();
             h.fixed_view_mut::<3, 9>(0, 0).copy_from(&rows);
             let r = self.r_lidar;
-            ekf::update(core, &Measurement { h, innovation, r }, idx::CONSIDER).map_err(not_spd)?
+            ekf::update(core, &Measurement { h, innovation, r }, idx::CONSIDER).map_err(|e| e.at(t_s))?
         } else {
             let mut h = SMatrix::<f64, 6, N>::zeros();
             h.fixed_view_mut::<3, 9>(0, 0).copy_from(&rows);
@@ -181,14 +180,10 @@ impl Estimator for RangeAndBearing {
                 innovation: stack(&innovation, &bias_innovation),
                 r: stack(&self.r_lidar, &Vector3::repeat(self.r_accelerometer)),
             };
-            let s = ekf::update(core, &m, idx::CONSIDER).map_err(not_spd)?;
+            let s = ekf::update(core, &m, idx::CONSIDER).map_err(|e| e.at(t_s))?;
             s.fixed_view::<3, 3>(0, 0).into_owned()
         };
-        let l = spd::cholesky(&s).ok_or(FilterError::InnovationNotSpd {
-            t_s,
-            min_diagonal: s.diagonal().min(),
-        })?;
-        let nis = spd::forward_substitution(&l, &innovation).norm_squared();
+        let nis = ekf::normalised(&s, &innovation).map_err(|e| e.at(t_s))?;
         let si = Vector3::new(self.units.length, 1.0, 1.0);
         updated.h = rows_of(&rows);
         updated.innovation = innovation.fixed_resize(0.0);

@@ -5,7 +5,7 @@ use super::{Estimator, Reported, Updated, defect, sigma};
 use crate::beliefs::Beliefs;
 use crate::ekf::{self, Measurement};
 use crate::error::FilterError;
-use crate::gravity::Gravity;
+use crate::gravity;
 use crate::laws::{AccelerationModel, Adaptation, Law, RelativeModel};
 use crate::navigator::Innovation;
 use crate::sample::Sample;
@@ -33,19 +33,15 @@ pub(crate) struct RelativeState {
 }
 
 /// Metrology variances, SI.
-pub(super) fn noise(_scenario: &ScenarioEntry, b: &Beliefs) -> Result<Vector6<f64>, FilterError> {
+pub(super) fn noise(b: &Beliefs) -> Result<Vector6<f64>, FilterError> {
     let position = Bound::Positive.check("r.sigma_position", b.r_sigma_position, "m")?;
     let velocity = Bound::Positive.check("r.sigma_velocity", b.r_sigma_velocity, "m/s")?;
-    Ok(Vector6::from_fn(|i, _| if i < 3 { position } else { velocity }.powi(2)))
+    Ok(sensors::metrology::covariance(position, velocity).diagonal())
 }
 
 impl RelativeState {
     pub(super) fn new(scenario: &ScenarioEntry, b: &Beliefs, law: &Law) -> Result<Self, FilterError> {
-        let Gravity::Zonal(zonal) = (scenario.gravity)(b)? else {
-            return Err(FilterError::NoRelativeModel {
-                scenario: scenario.name,
-            });
-        };
+        let zonal = gravity::zonal(b)?;
         let name = "reference_orbit.semi_major_axis";
         let a = Bound::Positive.check(name, b.reference_orbit_semi_major_axis, "m")?;
         let cw = ClohessyWiltshire::from_semi_major_axis(a, zonal.mu);
@@ -64,7 +60,7 @@ impl RelativeState {
             j2: (law.relative_model() == RelativeModel::J2).then_some(j2),
             transition: None,
             acceleration: law.acceleration(),
-            r: noise(scenario, b)?,
+            r: noise(b)?,
             initial_p: TargetMatrix::from_diagonal(&Target::from_fn(|i, _| p0[i / 3].powi(2))),
             core: None,
         })
@@ -139,7 +135,7 @@ fn rows() -> Rows {
 }
 
 impl Estimator for RelativeState {
-    fn check(&self, sample: &Sample, _law: &Law) -> Result<(), FilterError> {
+    fn check(&self, sample: &Sample) -> Result<(), FilterError> {
         let orbit = &sample.target_orbit;
         let sound = orbit.r > 0.0 && orbit.h > 0.0 && orbit.to_vector().iter().all(|v| v.is_finite());
         if self.j2.is_none() || sound {
@@ -152,7 +148,7 @@ impl Estimator for RelativeState {
         })
     }
 
-    fn start(&mut self, nav_init: &State, law: &Law) {
+    fn start(&mut self, nav_init: &State, law: &Law, _t_s: f64) -> Result<(), FilterError> {
         let mut x: Target = nav_init.fixed_rows::<9>(0).into_owned();
         let mut p = self.initial_p;
         if self.acceleration == AccelerationModel::Absent {
@@ -163,6 +159,7 @@ impl Estimator for RelativeState {
             p.fill(0.0);
         }
         self.core = Some(ekf::Gaussian { x, p });
+        Ok(())
     }
 
     fn started(&self) -> bool {
@@ -215,16 +212,11 @@ impl Estimator for RelativeState {
                 innovation: updated.innovation,
                 r: self.r,
             };
-            let not_spd = |min_diagonal: f64| FilterError::InnovationNotSpd {
-                t_s: sample.time,
-                min_diagonal,
-            };
-            let s = ekf::update(core, &m, 0..0).map_err(|e| not_spd(e.min_diagonal))?;
-            let l = spd::cholesky(&s).ok_or_else(|| not_spd(s.diagonal().min()))?;
+            let s = ekf::update(core, &m, 0..0).map_err(|e| e.at(sample.time))?;
             updated.seen = Some(Innovation {
                 residual: updated.innovation,
                 variance: s.diagonal(),
-                nis: spd::forward_substitution(&l, &updated.innovation).norm_squared(),
+                nis: ekf::normalised(&s, &updated.innovation).map_err(|e| e.at(sample.time))?,
             });
         }
         updated.correction = core.x - prior;

@@ -26,6 +26,32 @@ impl Measures {
     }
 }
 
+/// Values by full name of the parameter, in one or more lists.
+pub type Defaults = &'static [&'static [(&'static str, f64)]];
+
+/// Networks in the venting worlds see kilometres and metres per second, and forget within a minute: what they learn from the
+/// corrections of the first estimate, hundredths of m/s2, must not stay. Q is that of snc.
+const VENTING_NETWORKS: &[(&str, f64)] = &[
+    ("rbfnn_aekf.learning_rate", 0.165),
+    ("rbfnn_aekf.relaxation", 0.98),
+    ("rbfnn_aekf.scale_position", 1e3),
+    ("rbfnn_aekf.scale_velocity", 1.0),
+    ("rbfnn_aekf.q_position", 3e-10),
+    ("rbfnn_aekf.q_velocity", 9e-10),
+    ("rbfnn_ekf.learning_rate", 0.165),
+    ("rbfnn_ekf.relaxation", 0.98),
+    ("rbfnn_ekf.scale_position", 1e3),
+    ("rbfnn_ekf.scale_velocity", 1.0),
+    ("rbfnn_ekf.q_position", 3e-10),
+    ("rbfnn_ekf.q_velocity", 9e-10),
+];
+
+/// The value of this full name.
+pub(crate) fn default_of(defaults: Defaults, name: &str) -> Option<f64> {
+    let mut all = defaults.iter().flat_map(|list| list.iter());
+    all.find(|(n, _)| *n == name).map(|(_, value)| *value)
+}
+
 /// A world as a filter sees it.
 pub struct ScenarioEntry {
     /// Name, as in the FMU's `scenario` enumeration.
@@ -41,7 +67,7 @@ pub struct ScenarioEntry {
     /// Gravity model, in those units, from the user's parameters.
     pub gravity: fn(&Beliefs) -> Result<Gravity, FilterError>,
     /// The scenario's own values (SI unless the parameter says otherwise) for parameters left at -1, by full name.
-    pub defaults: &'static [(&'static str, f64)],
+    pub defaults: Defaults,
 }
 
 /// Every scenario, in the order of the FMU's enumeration.
@@ -53,8 +79,7 @@ impl ScenarioEntry {
         if value != Beliefs::OWN {
             return Ok(value);
         }
-        let own = self.defaults.iter().find(|(n, _)| *n == name);
-        own.map(|(_, v)| *v).ok_or(FilterError::NoScenarioDefault {
+        default_of(self.defaults, name).ok_or(FilterError::NoScenarioDefault {
             name: name.into(),
             scenario: self.name,
         })

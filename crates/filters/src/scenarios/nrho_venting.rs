@@ -2,7 +2,7 @@
 //!
 //! The filter works and adapts in nondimensional units, as the paper does; what it is given and gives is SI.
 
-use super::{Measures, ScenarioEntry};
+use super::{Measures, ScenarioEntry, VENTING_NETWORKS};
 use crate::{Beliefs, FilterError, Gravity, Units};
 use astro::Cr3bp;
 use astro::cr3bp::{EARTH_MOON_LENGTH as LENGTH, EARTH_MOON_TIME as TIME};
@@ -17,39 +17,27 @@ pub(super) const ENTRY: ScenarioEntry = ScenarioEntry {
         time: TIME,
     },
     gravity,
-    defaults: &[
-        // Eq. (37), printed nondimensionally.
-        ("p0.sigma_position", 2.5e-8 * LENGTH),
-        ("p0.sigma_velocity", 2.5e-11 * LENGTH / TIME),
-        ("p0.sigma_acceleration", 3.5e-7 * LENGTH / (TIME * TIME)),
-        ("p0.sigma_bias", 3.5e-7 * LENGTH / (TIME * TIME)),
-        // "There is no process noise applied to the chaser vehicle dynamics."
-        ("chaser.q_c", 0.0),
-        ("snc.q", 3e-5),
-        ("dmc.sigma", 5e-6),
-        ("dmc.time_constant", 10.0),
-        ("constrained_q.r_w", 1.0),
-        ("milton.psi0", 1e-2),
-        ("milton.q_w", 1e-7),
-        ("milton.r_w", 1e-2),
-        // 1e-6 nondimensional.
-        ("milton.s0", 4.457_858_762_880_507e-12),
-        // The network sees kilometres and metres per second and forgets within a minute: what it learns from the corrections of
-        // the first estimate, hundredths of m/s2, must not stay. Q is that of snc.
-        ("rbfnn_aekf.learning_rate", 0.165),
-        ("rbfnn_aekf.relaxation", 0.98),
-        ("rbfnn_aekf.scale_position", 1e3),
-        ("rbfnn_aekf.scale_velocity", 1.0),
-        ("rbfnn_aekf.q_position", 3e-10),
-        ("rbfnn_aekf.q_velocity", 9e-10),
-        ("rbfnn_ekf.learning_rate", 0.165),
-        ("rbfnn_ekf.relaxation", 0.98),
-        ("rbfnn_ekf.scale_position", 1e3),
-        ("rbfnn_ekf.scale_velocity", 1.0),
-        ("rbfnn_ekf.q_position", 3e-10),
-        ("rbfnn_ekf.q_velocity", 9e-10),
-    ],
+    defaults: &[VENTING_NETWORKS, OWN],
 };
+
+const OWN: &[(&str, f64)] = &[
+    // Eq. (37), printed nondimensionally.
+    ("p0.sigma_position", 2.5e-8 * LENGTH),
+    ("p0.sigma_velocity", 2.5e-11 * LENGTH / TIME),
+    ("p0.sigma_acceleration", 3.5e-7 * LENGTH / (TIME * TIME)),
+    ("p0.sigma_bias", 3.5e-7 * LENGTH / (TIME * TIME)),
+    // "There is no process noise applied to the chaser vehicle dynamics."
+    ("chaser.q_c", 0.0),
+    ("snc.q", 3e-5),
+    ("dmc.sigma", 5e-6),
+    ("dmc.time_constant", 10.0),
+    ("constrained_q.r_w", 1.0),
+    ("milton.psi0", 1e-2),
+    ("milton.q_w", 1e-7),
+    ("milton.r_w", 1e-2),
+    // 1e-6 nondimensional.
+    ("milton.s0", 4.457_858_762_880_507e-12),
+];
 
 fn gravity(beliefs: &Beliefs) -> Result<Gravity, FilterError> {
     let mass_ratio = beliefs.gravity_mass_ratio;
@@ -71,7 +59,7 @@ mod tests {
 
     #[test]
     fn start_of_s_is_the_printed_one_in_nondimensional_units() {
-        let s0 = ENTRY.defaults.iter().find(|(name, _)| *name == "milton.s0").unwrap().1;
+        let s0 = OWN.iter().find(|(name, _)| *name == "milton.s0").unwrap().1;
         assert!((s0 / ENTRY.units.root_jerk_density() / 1e-6 - 1.0).abs() < 1e-12);
     }
 }

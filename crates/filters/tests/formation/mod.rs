@@ -1,5 +1,9 @@
 //! The formation as the J2 relative model has it, measured in full, and what it has in common with the other world.
 
+#![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
+#![allow(missing_docs, reason = "part of test binaries")]
+#![allow(dead_code, reason = "each binary uses its own part")]
+
 use crate::common::OwnWorld;
 use astro::{ClohessyWiltshire, Elements, J2RelativeMotion, Lvlh, TargetOrbit};
 use filters::Sample;

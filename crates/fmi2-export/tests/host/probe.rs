@@ -63,7 +63,7 @@ impl Model for Probe {
             default_step: 0.5,
             vendor_annotations: vec![VendorAnnotation {
                 tool: "bench",
-                content: vec![Element::new("Preset").attribute("name", "100 % \"wild\"")],
+                content: Element::new("Preset").attribute("name", "100 % \"wild\""),
             }],
             ..ModelInfo::default()
         })

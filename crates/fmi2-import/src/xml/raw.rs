@@ -197,6 +197,13 @@ pub(super) struct RawVendorAnnotations {
 pub(super) struct RawTool {
     #[serde(rename = "@name", default)]
     pub(super) name: String,
+    // The schema permits one element under a tool, so this holds the rest.
+    #[serde(rename = "Filters", default)]
+    pub(super) filters: Vec<RawFilters>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct RawFilters {
     #[serde(rename = "Presets", default)]
     pub(super) presets: Vec<RawPresets>,
     #[serde(rename = "Meaning", default)]

@@ -59,14 +59,15 @@ impl Resolver<'_> {
         }
 
         let (mut presets, mut searches, mut meanings) = (Vec::new(), Vec::new(), Vec::new());
-        for tool in raw.vendor_annotations.tools.into_iter().filter(|t| t.name == OUR_TOOL) {
-            for preset in tool.presets.into_iter().flat_map(|list| list.presets) {
+        let ours = raw.vendor_annotations.tools.into_iter().filter(|t| t.name == OUR_TOOL);
+        for told in ours.flat_map(|tool| tool.filters) {
+            for preset in told.presets.into_iter().flat_map(|list| list.presets) {
                 presets.push(self.preset(preset)?);
             }
-            for search in tool.searches.into_iter().flat_map(|list| list.searches) {
+            for search in told.searches.into_iter().flat_map(|list| list.searches) {
                 searches.push(self.search(search)?);
             }
-            for only in tool.meanings.into_iter().flat_map(|list| list.only) {
+            for only in told.meanings.into_iter().flat_map(|list| list.only) {
                 meanings.push(self.meaning(only)?);
             }
         }

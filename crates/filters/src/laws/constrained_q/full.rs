@@ -103,6 +103,9 @@ pub(super) fn minimise(h: &Matrix6<f64>, g: &Vector6<f64>, lower: f64, upper: f6
     let weight = FULL.map(|(i, j)| side[i] * side[j]);
     let rest = g - h * entries(&(Matrix3::identity() * lower));
     let linear: [f64; 6] = std::array::from_fn(|k| -rest[k] * weight[k]);
+    if !linear.iter().all(|v| v.is_finite()) {
+        return Err(None);
+    }
     let size = linear.iter().fold(1e-300_f64, |m, v| m.max(v.abs()));
     let cost = std::array::from_fn(|k| std::array::from_fn(|l| h[(k, l)] * weight[k] * weight[l]));
     let linear = linear.map(|v| v / size);
@@ -134,7 +137,12 @@ pub(super) fn minimise(h: &Matrix6<f64>, g: &Vector6<f64>, lower: f64, upper: f6
             let mut eigen = (Matrix3::identity() * lower + side * u * side * size).symmetric_eigen();
             // What the tolerances left.
             eigen.eigenvalues.apply(|v| *v = v.clamp(lower, upper));
-            return Ok(numerics::spd::symmetrised(&eigen.recompose()));
+            let q = numerics::spd::symmetrised(&eigen.recompose());
+            return if q.iter().all(|v| v.is_finite()) {
+                Ok(q)
+            } else {
+                Err(None)
+            };
         }
     }
     Err(None)
