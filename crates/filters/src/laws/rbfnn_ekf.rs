@@ -14,11 +14,23 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "rbfnn_ekf",
     about: "a radial-basis network learns the disturbance, constant Q (Pesce, Silvestrini and Lavagna)",
     tunables: &network::with::<2, 11>([Q_POSITION, Q_VELOCITY]),
-    presets: &[Preset {
-        name: "paper",
-        about: "the Q that the adaptive filter starts with, as in the paper",
-        sets: &[],
-    }],
+    presets: &[
+        Preset {
+            name: "paper",
+            about: "the Q that the adaptive filter starts with, as in the paper",
+            sets: &[],
+        },
+        Preset {
+            name: "light",
+            about: "a Q and a slow network as a search finds them for the formation",
+            sets: &[
+                ("q_position", "5e-14"),
+                ("q_velocity", "4e-12"),
+                ("learning_rate", "0.005"),
+                ("shape", "0.7"),
+            ],
+        },
+    ],
     search: &[
         network::SEARCH_LEARNING_RATE,
         network::SEARCH_SHAPE,
