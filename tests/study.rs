@@ -233,7 +233,7 @@ fn mistakes_on_the_command_line_are_told_and_leave_earlier_results_alone() {
     std::fs::write(&cut, &bytes[..bytes.len() / 2]).unwrap();
     let cut = format!("x={}", text(&cut));
 
-    let mistakes: [Mistake<'_>; 28] = [
+    let mistakes: [Mistake<'_>; 29] = [
         (
             &["--set", "fmu-truth.lidar.sigma_rnge=1"],
             &["fmu-truth", "lidar.sigma_rnge", "did you mean \"lidar.sigma_range\""],
@@ -288,6 +288,7 @@ fn mistakes_on_the_command_line_are_told_and_leave_earlier_results_alone() {
         (&["--filters", "kalman"], &["kalman", "fixed_q, "]),
         (&["--filters", "milton@papr"], &["milton", "papr", "consistent"]),
         (&["--scenario", "moon"], &["moon", "leo_venting"]),
+        (&["--scenario", "leo_venting,leo_venting"], &["'leo_venting'", "twice"]),
         (&["--step", "0"], &["step of 0 s"]),
         (&["--step", "-1"], &["-1"]),
         (&["--step", "nan"], &["NaN"]),

@@ -178,6 +178,21 @@ fn a_filter_with_nothing_to_tune_is_judged_as_it_is() {
     assert!(table.contains("fixed_q: nothing to tune"), "{table}");
     assert_eq!(read_csv(&folder.path().join("search.csv")).len(), 0);
     assert_eq!(read_csv(&folder.path().join("summary.csv")).len(), 1);
+
+    // What each run draws would replace what the search tries, so it is not searched either.
+    let folder = tempfile::tempdir().unwrap();
+    let tune = [
+        "tune",
+        "--filters",
+        "fixed_q",
+        "--vary",
+        "fmu-nav.fixed_q.s=loguniform:1e-8:1e-6",
+        "--judge-runs",
+        "1",
+    ];
+    let table = harness_ok(&[&tune[..], &["--out", text(folder.path())]].concat());
+    assert!(table.contains("fixed_q: nothing to tune"), "{table}");
+    assert_eq!(read_csv(&folder.path().join("search.csv")).len(), 0);
 }
 
 /// Arguments, and what the message must hold.
@@ -190,7 +205,7 @@ fn mistakes_are_told_before_the_search() {
     let no_json = folder.path().join("notes.json");
     std::fs::write(&no_json, "[]").unwrap();
     let range = |text: &'static str| ["--range", text];
-    let mistakes: [Mistake<'_>; 19] = [
+    let mistakes: [Mistake<'_>; 21] = [
         (
             &range("fmu-nav.snc.q=1e-3:1e-6"),
             &["fmu-nav.snc.q", "0.001", "0.000001", "0 < LOW < HIGH"],
@@ -227,6 +242,14 @@ fn mistakes_are_told_before_the_search() {
         (
             &["--range", "fmu-nav.snc.q=1:2", "--set", "fmu-nav.snc.q=1"],
             &["fmu-nav.snc.q", "--set and in --range"],
+        ),
+        (
+            &["--range", "fmu-nav.snc.q=1:2", "--vary", "fmu-nav.snc.q=loguniform:1:2"],
+            &["fmu-nav.snc.q", "--vary and in --range"],
+        ),
+        (
+            &["--scenario", "leo_venting,formation,leo_venting"],
+            &["'leo_venting'", "twice"],
         ),
         (&["--seed", "1"], &["--seed and --judge-seed are both 1"]),
         (&["--nees-min", "3"], &["NEES limits of 3 to 2"]),

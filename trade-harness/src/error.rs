@@ -28,6 +28,12 @@ pub enum HarnessError {
         /// Names that exist.
         known: String,
     },
+    /// A scenario is named more than once; its rows and files would be the same.
+    #[error("scenario '{name}' is named twice; name each once")]
+    ScenarioTwice {
+        /// The name.
+        name: String,
+    },
     /// A filter of that name does not exist.
     #[error("fmu-nav has no filter '{name}'; it has: {known}")]
     UnknownFilter {
@@ -162,6 +168,16 @@ pub enum HarnessError {
         /// Variable.
         variable: String,
     },
+    /// `--vary` and `--range` of the same variable.
+    #[error(
+        "{model}.{variable} stands in --vary and in --range; a value that each run draws is not searched, so give one of them"
+    )]
+    VariedAndSearched {
+        /// Model.
+        model: String,
+        /// Variable.
+        variable: String,
+    },
     /// A NEES limit that leaves nothing.
     #[error(
         "NEES limits of {low} to {high} leave nothing: give 0 < --nees-min < --nees-max; a consistent filter has 1"
@@ -187,6 +203,18 @@ pub enum HarnessError {
         path: PathBuf,
         /// What is wrong with it.
         source: serde_json::Error,
+    },
+    /// A tuned set with a value that cannot be set.
+    #[error("tuned set '{set}' of {scenario} in {}: {source}", file.display())]
+    BadTunedSet {
+        /// The file.
+        file: PathBuf,
+        /// `NAME@SET`.
+        set: String,
+        /// Scenario it holds for.
+        scenario: String,
+        /// What cannot be set, and why.
+        source: Box<HarnessError>,
     },
     /// Two rows of the results would have the same name.
     #[error("filter '{label}' stands in the study twice (or is the name of the truth); give each a label of its own")]

@@ -1,6 +1,7 @@
 //! Filters, presets, `--set` and `--map` resolved against FMUs that consist of a description alone.
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -8,6 +9,7 @@ use cosim::Value;
 use trade_harness::HarnessError;
 use trade_harness::models::{Assignment, FilterChoice, ForeignFilter, Mapping, Models, Participant, Variation};
 use trade_harness::scenarios::SCENARIOS;
+use trade_harness::tuning::sets::{TunedFile, TunedSet};
 
 const TRUTH: &str = r#"
     <ScalarVariable name="scenario" valueReference="0" causality="parameter" variability="fixed"><Enumeration declaredType="Scenario" start="1"/></ScalarVariable>
@@ -20,7 +22,9 @@ const NAV: &str = r#"
     <ScalarVariable name="scenario" valueReference="0" causality="parameter" variability="fixed"><Enumeration declaredType="Scenario" start="1"/></ScalarVariable>
     <ScalarVariable name="filter" valueReference="1" causality="parameter" variability="fixed"><Enumeration declaredType="Filter" start="1"/></ScalarVariable>
     <ScalarVariable name="milton.m_b" valueReference="2" causality="parameter" variability="fixed"><Integer start="30"/></ScalarVariable>
-    <ScalarVariable name="milton.whiten" valueReference="3" causality="parameter" variability="fixed"><Boolean start="false"/></ScalarVariable>"#;
+    <ScalarVariable name="milton.whiten" valueReference="3" causality="parameter" variability="fixed"><Boolean start="false"/></ScalarVariable>
+    <ScalarVariable name="fixed_q.s" valueReference="4" causality="parameter" variability="fixed"><Real start="1" min="0"/></ScalarVariable>
+    <ScalarVariable name="status" valueReference="5" causality="output" variability="discrete"><Integer/></ScalarVariable>"#;
 
 const FOREIGN: &str = r#"
     <ScalarVariable name="gain" valueReference="0" causality="parameter" variability="fixed"><Real start="1" min="0"/></ScalarVariable>
@@ -188,6 +192,81 @@ fn variations_reach_every_part_of_their_model() {
     );
     let record = ("gain".to_owned(), "loguniform:0.1:10".to_owned());
     assert!(filters[2].record.contains(&record));
+}
+
+/// A label tells nothing about the FMU: a stranger may be called like a filter of ours.
+#[test]
+fn variations_miss_a_namesake() {
+    let folder = tempfile::tempdir().unwrap();
+    let truth = write_fmu(folder.path(), "truth", TRUTH);
+    let nav = write_fmu(folder.path(), "nav", NAV);
+    let theirs = write_fmu(folder.path(), "their", FOREIGN);
+    let theirs: ForeignFilter = format!("fixed_q={}", theirs.display()).parse().unwrap();
+    let models = Models::open(&truth, Some(&nav), &[theirs], &[]).unwrap();
+    let ours = ["fixed_q@paper".parse::<FilterChoice>().unwrap()];
+    let (mut truth, mut filters) = models.cast(&SCENARIOS[0], &ours, &[]).unwrap();
+    let variations = ["fmu-nav.fixed_q.s=uniform:1:2", "fixed_q.gain=uniform:3:4"].map(|v| v.parse().unwrap());
+    models.vary(&mut truth, &mut filters, &variations, &[]).unwrap();
+    let varied = |p: &Participant| p.varied.iter().map(|v| v.name.clone()).collect::<Vec<_>>();
+    assert_eq!(
+        filters.iter().map(|f| f.label.as_str()).collect::<Vec<_>>(),
+        ["fixed_q@paper", "fixed_q"]
+    );
+    assert_eq!([varied(&filters[0]), varied(&filters[1])], [["fixed_q.s"], ["gain"]]);
+    assert!(truth.varied.is_empty());
+}
+
+/// What a file of tuned sets says is checked as what `--set` says, and told with the file and the set.
+#[test]
+fn tuned_sets_set_parameters_only() {
+    let folder = tempfile::tempdir().unwrap();
+    let truth = write_fmu(folder.path(), "truth", TRUTH);
+    let nav = write_fmu(folder.path(), "nav", NAV);
+    let mut models = Models::open(&truth, Some(&nav), &[], &[]).unwrap();
+    let mut cast = |variable: &str, value| {
+        let file = TunedFile {
+            harness_version: "0".to_owned(),
+            objective: "position".to_owned(),
+            nees_limits: [0.5, 2.0],
+            search_seed: 7,
+            search_runs: 1,
+            evaluations: 1,
+            judge_seed: 1,
+            judge_runs: 1,
+            set: Vec::new(),
+            sets: vec![TunedSet {
+                file: None,
+                scenario: "leo_venting".to_owned(),
+                filter: "fixed_q".to_owned(),
+                preset: "paper".to_owned(),
+                name: "tuned".to_owned(),
+                values: BTreeMap::from([(variable.to_owned(), value)]),
+                search_objective: None,
+                search_nees: None,
+                feasible: true,
+            }],
+        };
+        let path = folder.path().join("tuned.json");
+        std::fs::write(&path, file.render().unwrap()).unwrap();
+        models.tuned = TunedFile::read(&path).unwrap().sets;
+        let tuned = ["fixed_q@tuned".parse().unwrap()];
+        models.cast(&SCENARIOS[0], &tuned, &[]).map(|(_, filters)| filters)
+    };
+    let filters = cast("fixed_q.s", 0.25).unwrap();
+    assert_eq!(value(&filters[0], "fixed_q.s"), Some(&Value::Real(0.25)));
+    for (variable, number, says) in [
+        ("status", 1.0, "output"),
+        ("run", 1.0, "--runs"),
+        ("fixed_q.S", 1.0, "did you mean \"fixed_q.s\""),
+        ("fixed_q.s", -1.0, "-1"),
+    ] {
+        let error = cast(variable, number).unwrap_err();
+        assert!(matches!(error, HarnessError::BadTunedSet { .. }), "{error}");
+        let text = error.to_string();
+        for part in ["tuned.json", "fixed_q@tuned", "leo_venting", variable, says] {
+            assert!(text.contains(part), "'{part}' is missing in: {text}");
+        }
+    }
 }
 
 #[test]

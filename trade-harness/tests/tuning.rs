@@ -237,6 +237,17 @@ fn a_search_without_a_covariance_or_without_success_says_so() {
     assert_eq!(tuning.filters[0].evaluations[1].tally.failed, RUNS);
 }
 
+/// A filter that fails is not one that lacks what it is tuned by.
+#[test]
+fn a_search_in_which_everything_fails_says_so() {
+    let limits = Limits::new(0.5, 1e3).unwrap();
+    let tuning = tuned(&[("never", Quirk::WrongTag)], vec![gain(1e-4, 1.0)], limits, 2);
+    assert_eq!(
+        notes(&tuning.filters[0], &options(limits, 2)),
+        ["every run of every candidate failed: see search.csv"]
+    );
+}
+
 #[test]
 fn what_cannot_be_had_leaves_the_filter_as_given() {
     let options = Options {

@@ -21,11 +21,7 @@ use crate::scenarios;
 use crate::study::{RunRow, Study, StudyResult};
 
 pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
-    let worlds = args
-        .scenarios
-        .iter()
-        .map(|name| scenarios::find(name))
-        .collect::<Result<Vec<_>, _>>()?;
+    let worlds = scenarios::find_all(&args.scenarios)?;
     let folder = OutputFolder::prepare(&args.out)?;
     let cast = Cast::new(&args.study)?;
     let jobs = threads(args.jobs);

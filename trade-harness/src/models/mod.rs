@@ -43,6 +43,8 @@ impl SlaveSource for Fmu {
 pub struct Participant {
     /// Name of the slave; for a filter the text of the `filter` column.
     pub label: String,
+    /// Name of its [`Model`], as `--set` and `--vary` address it.
+    pub model: String,
     /// Where the slave comes from.
     pub source: Arc<dyn SlaveSource>,
     /// Name mapping, (own name, contract name).
@@ -63,6 +65,12 @@ impl Participant {
             .iter()
             .find(|(name, _)| name == contract)
             .map(|(_, value)| value)
+    }
+
+    /// Whether each run draws the start value of this variable anew, by the FMU's own name.
+    pub fn varies(&self, own: &str) -> bool {
+        let contract = self.contract(own);
+        self.varied.iter().any(|v| v.name == contract)
     }
 
     /// Sets the start value of a Real variable by the FMU's own name.
@@ -388,7 +396,14 @@ impl<'a> StartValues<'a> {
 
     fn values_of(&mut self, set: &TunedSet) -> Result<(), HarnessError> {
         for (variable, value) in &set.values {
-            self.set(variable, &format!("{value:?}"))?;
+            check_parameter(self.model, variable)
+                .and_then(|()| self.set(variable, &format!("{value:?}")))
+                .map_err(|source| HarnessError::BadTunedSet {
+                    file: set.file.clone().unwrap_or_default(),
+                    set: format!("{}@{}", set.filter, set.name),
+                    scenario: set.scenario.clone(),
+                    source: Box::new(source),
+                })?;
         }
         Ok(())
     }
@@ -402,7 +417,7 @@ impl<'a> StartValues<'a> {
     }
 
     fn named(self, label: &str) -> Participant {
-        let Model { fmu, aliases, .. } = self.model;
+        let Model { name, fmu, aliases } = self.model;
         let text = |name: &str, value: &Value| {
             fmu.description()
                 .get(name)
@@ -410,6 +425,7 @@ impl<'a> StartValues<'a> {
         };
         Participant {
             label: label.to_owned(),
+            model: name.clone(),
             source: fmu.clone(),
             aliases: aliases.clone(),
             record: self

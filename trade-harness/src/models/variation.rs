@@ -7,7 +7,7 @@ use cosim::BaseType;
 use numerics::{Source, stream};
 use rand::RngExt;
 
-use super::{Assignment, Model, Models, Participant, TRUTH, check_parameter};
+use super::{Assignment, Model, Models, Participant, check_parameter};
 use crate::HarnessError;
 
 /// How the values of a varied parameter are spread, low end and high end.
@@ -166,7 +166,7 @@ impl Models {
                 draw,
             };
             let parts = std::iter::once(&mut *truth).chain(filters.iter_mut());
-            for part in parts.filter(|p| self.model_of_part(p).name == *name) {
+            for part in parts.filter(|p| p.model == *name) {
                 part.starts.retain(|(name, _)| *name != varied.name);
                 part.record.retain(|(name, _)| name != variable);
                 part.record.push((variable.clone(), distribution.to_string()));
@@ -174,14 +174,6 @@ impl Models {
             }
         }
         Ok(())
-    }
-
-    /// The FMU of a part of a run.
-    fn model_of_part(&self, part: &Participant) -> &Model {
-        let label = part.label.split('@').next().unwrap_or_default();
-        let named = self.foreign.iter().find(|m| m.name == label);
-        let own = if part.label == TRUTH { None } else { self.nav.as_ref() };
-        named.or(own).unwrap_or(&self.truth)
     }
 }
 

@@ -212,6 +212,21 @@ pub fn find(name: &str) -> Result<&'static Scenario, HarnessError> {
         })
 }
 
+/// The scenarios of these names, in the order given.
+///
+/// # Errors
+/// [`HarnessError::UnknownScenario`], [`HarnessError::ScenarioTwice`].
+pub fn find_all(names: &[String]) -> Result<Vec<&'static Scenario>, HarnessError> {
+    let mut found: Vec<&Scenario> = Vec::with_capacity(names.len());
+    for name in names {
+        if found.iter().any(|s| s.name == *name) {
+            return Err(HarnessError::ScenarioTwice { name: name.clone() });
+        }
+        found.push(find(name)?);
+    }
+    Ok(found)
+}
+
 /// Rows R, T, N of the target's orbit: R along its position, N along its angular momentum, T completes.
 ///
 /// Position and velocity of the target are those of the chaser plus the relative ones, in inertial axes about the

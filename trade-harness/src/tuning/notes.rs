@@ -10,6 +10,12 @@ pub fn notes(searched: &Searched, options: &Options) -> Vec<String> {
     let Some(winner) = searched.best() else {
         return vec!["nothing to tune".to_owned()];
     };
+    // The winner has the fewest bad runs of all.
+    if winner.tally.failed == options.runs {
+        let all_failed = searched.evaluations.iter().all(|e| e.tally.failed == options.runs);
+        let what = if all_failed { "failed" } else { "failed or went wrong" };
+        return vec![format!("every run of every candidate {what}: see search.csv")];
+    }
     if winner.standing.objective.is_infinite() {
         return vec![format!("no {} to tune by", options.objective.name())];
     }

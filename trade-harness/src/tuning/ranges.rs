@@ -61,12 +61,13 @@ fn rounded(value: f64) -> f64 {
 /// The parameters of one filter that are searched: those its FMU proposes, then those that `--range` adds.
 ///
 /// * `filter`: the filter of fmu-nav; its parameters begin with its name. `None` for a foreign FMU, which is one filter.
-/// * `participant`: the filter as it would run without a search, for the values it starts from.
+/// * `participant`: the filter as it would run without a search, for the values it starts from; what it varies from run
+///   to run is not searched, as those values would replace the candidate's.
 /// * `fixed`: what `--set` says; that is not searched.
 ///
 /// # Errors
-/// [`HarnessError::SearchRange`], [`HarnessError::NotSearchable`], [`HarnessError::SetAndSearched`], or a range beyond
-/// what the variable can take.
+/// [`HarnessError::SearchRange`], [`HarnessError::NotSearchable`], [`HarnessError::SetAndSearched`],
+/// [`HarnessError::VariedAndSearched`], or a range beyond what the variable can take.
 pub fn axes(
     model: &Model,
     filter: Option<&str>,
@@ -84,10 +85,17 @@ pub fn axes(
             variable: both.variable.clone(),
         });
     }
+    if let Some(both) = asked().find(|r| participant.varies(&r.variable)) {
+        return Err(HarnessError::VariedAndSearched {
+            model: model.name.clone(),
+            variable: both.variable.clone(),
+        });
+    }
+    let taken = |variable: &str| is_set(variable) || participant.varies(variable);
     let proposed = description
         .searches
         .iter()
-        .filter(|s| own(&s.variable) && !is_set(&s.variable));
+        .filter(|s| own(&s.variable) && !taken(&s.variable));
     let mut chosen: Vec<(&str, f64, f64)> = proposed.map(|s| (s.variable.as_str(), s.low, s.high)).collect();
     for range in asked() {
         match chosen.iter_mut().find(|(variable, ..)| *variable == range.variable) {

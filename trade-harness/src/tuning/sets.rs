@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
@@ -37,6 +37,9 @@ pub struct TunedFile {
 /// The best values of one filter in one scenario.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TunedSet {
+    /// The file it was read from, for messages.
+    #[serde(skip)]
+    pub file: Option<PathBuf>,
     /// Where it was tuned, and alone counts.
     pub scenario: String,
     /// Filter of fmu-nav, or label of a foreign filter.
@@ -76,10 +79,14 @@ impl TunedFile {
             path: path.to_owned(),
             source,
         })?;
-        serde_json::from_str(&text).map_err(|source| HarnessError::NotTuned {
+        let mut file: Self = serde_json::from_str(&text).map_err(|source| HarnessError::NotTuned {
             path: path.to_owned(),
             source,
-        })
+        })?;
+        for set in &mut file.sets {
+            set.file = Some(path.to_owned());
+        }
+        Ok(file)
     }
 
     /// Contents of the file.
@@ -113,6 +120,7 @@ mod tests {
             judge_runs: 4,
             set: vec!["fmu-truth.vent.scale=2".to_owned()],
             sets: vec![TunedSet {
+                file: Some(path.clone()),
                 scenario: "s".to_owned(),
                 filter: "f".to_owned(),
                 preset: "p".to_owned(),

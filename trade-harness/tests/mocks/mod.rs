@@ -126,6 +126,7 @@ impl SlaveSource for Source {
 fn participant(label: &str, truth: bool, quirk: Quirk) -> Participant {
     Participant {
         label: label.to_owned(),
+        model: if truth { "fmu-truth" } else { "fmu-nav" }.to_owned(),
         source: Arc::new(Source { truth, quirk }),
         aliases: Vec::new(),
         starts: Vec::new(),

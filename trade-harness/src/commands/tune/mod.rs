@@ -20,11 +20,7 @@ use plan::{Plan, check_ranges};
 use results::Done;
 
 pub(super) fn tune(args: &TuneArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
-    let worlds = args
-        .scenarios
-        .iter()
-        .map(|name| scenarios::find(name))
-        .collect::<Result<Vec<_>, _>>()?;
+    let worlds = scenarios::find_all(&args.scenarios)?;
     let options = options(args)?;
     let folder = OutputFolder::prepare(&args.out)?;
     let mut cast = Cast::new(&args.study)?;

@@ -165,6 +165,7 @@ impl Plan {
             let mut values = before.map(|t| t.values.clone()).unwrap_or_default();
             values.extend(found);
             Some(TunedSet {
+                file: None,
                 scenario: self.scenario.name.to_owned(),
                 filter: filter.clone(),
                 preset: before.map_or(given, |t| &t.preset).to_owned(),
