@@ -15,6 +15,7 @@ pub mod models;
 mod ordered;
 pub mod output;
 pub mod pack;
+mod packed;
 pub mod report;
 pub mod reproduce;
 pub mod run;

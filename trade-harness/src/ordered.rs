@@ -4,19 +4,18 @@ use std::collections::BTreeMap;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError, mpsc};
 use std::thread;
 
-/// Results that may wait for an earlier one, for each thread.
-const AHEAD: u32 = 2;
-
 /// Runs `work(0)`..`work(count - 1)` on `jobs` threads and hands the results to `fold` in order, on this thread.
 ///
-/// At most `2 * jobs` results exist at a time, however uneven the work: that is why this is no rayon iterator, which
-/// would hand each thread a distant range and keep half of the results waiting. Ends early when `fold` fails.
+/// At most `jobs + waiting` results exist at a time, those being worked on included, however uneven the work: that is why
+/// this is no rayon iterator, which would hand each thread a distant range and keep half of the results waiting. Ends
+/// early when `fold` fails.
 ///
 /// # Errors
 /// The first error of `fold`.
 pub(crate) fn in_order<T: Send, E>(
     count: u32,
     jobs: usize,
+    waiting: u32,
     work: impl Fn(u32) -> T + Sync,
     mut fold: impl FnMut(u32, T) -> Result<(), E>,
 ) -> Result<(), E> {
@@ -29,7 +28,7 @@ pub(crate) fn in_order<T: Send, E>(
             scope.spawn(move || {
                 // Lets the others end, too, when this thread panics.
                 let _open = OpenOnDrop(gate);
-                while let Some(index) = gate.take(count, jobs.saturating_mul(AHEAD)) {
+                while let Some(index) = gate.take(count, jobs.saturating_add(waiting)) {
                     if sender.send((index, work(index))).is_err() {
                         return;
                     }
@@ -108,11 +107,11 @@ mod tests {
 
     #[test]
     fn results_arrive_in_order_and_not_too_early() {
-        for jobs in [1, 3, 16] {
+        for (jobs, waiting) in [(1, 1), (3, 0), (3, 1), (16, 16)] {
             let folded = AtomicU32::new(0);
             let mut seen = Vec::new();
             let work = |i: u32| {
-                assert!(i <= folded.load(Ordering::SeqCst) + AHEAD * jobs as u32);
+                assert!(i < folded.load(Ordering::SeqCst) + jobs as u32 + waiting);
                 // Early indices are slow, so that later ones overtake them.
                 thread::sleep(Duration::from_micros(u64::from(400 * (3 - i % 4))));
                 i * i
@@ -122,7 +121,7 @@ mod tests {
                 folded.store(i + 1, Ordering::SeqCst);
                 Ok::<(), ()>(())
             };
-            in_order(40, jobs, work, fold).unwrap();
+            in_order(40, jobs, waiting, work, fold).unwrap();
             assert_eq!(seen, (0..40).map(|i| (i, i * i)).collect::<Vec<_>>());
         }
     }
@@ -131,19 +130,19 @@ mod tests {
     fn an_error_of_the_fold_ends_the_work() {
         let started = AtomicU32::new(0);
         let work = |_| started.fetch_add(1, Ordering::SeqCst);
-        let result = in_order(1_000_000, 2, work, |i, _| if i == 5 { Err("full") } else { Ok(()) });
+        let result = in_order(1_000_000, 2, 2, work, |i, _| if i == 5 { Err("full") } else { Ok(()) });
         assert_eq!(result, Err("full"));
         assert!(started.load(Ordering::SeqCst) < 20);
     }
 
     #[test]
     fn a_panic_is_passed_on_rather_than_waited_for() {
-        let run = || in_order(100, 2, |i| assert!(i != 3, "run 3"), |_, ()| Ok::<(), ()>(()));
+        let run = || in_order(100, 2, 2, |i| assert!(i != 3, "run 3"), |_, ()| Ok::<(), ()>(()));
         assert!(std::panic::catch_unwind(run).is_err());
     }
 
     #[test]
     fn no_work_is_done_at_once() {
-        assert_eq!(in_order(0, 4, |i| i, |_, _| Err("never")), Ok(()));
+        assert_eq!(in_order(0, 4, 4, |i| i, |_, _| Err("never")), Ok(()));
     }
 }

@@ -51,6 +51,15 @@ impl OutputFolder {
         write_whole(&path, contents)?;
         Ok(path)
     }
+
+    /// The same for several files; returns their names.
+    ///
+    /// # Errors
+    /// [`HarnessError::Write`]; then those before it are written.
+    pub fn write_all(&self, files: Vec<(String, Vec<u8>)>) -> Result<Vec<String>, HarnessError> {
+        let write = |(name, contents): (String, Vec<u8>)| self.write(&name, &contents).map(|_| name);
+        files.into_iter().map(write).collect()
+    }
 }
 
 /// Checks, before the work, that a file can be written at this path; its folder is created if need be.

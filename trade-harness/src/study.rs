@@ -7,8 +7,13 @@ use stats::{Ensemble, ScalarEnsemble};
 
 use crate::HarnessError;
 use crate::ordered::in_order;
+use crate::packed::PackedScores;
 use crate::run::{Ending, Failure, RunReport, SlaveTime, Spec, run_once};
 use crate::score::{QUANTITIES, Quantity, Score, score};
+
+/// Runs whose scores may wait for an earlier run, beside those that the threads are at: they are what a study needs its
+/// memory for, and runs of one study take about the same time.
+const WAITING: u32 = 1;
 
 /// A Monte Carlo study of one scenario.
 #[derive(Debug)]
@@ -76,6 +81,7 @@ pub struct FilterResult {
     pub first_scored: usize,
     /// Time taken.
     pub timing: Timing,
+    epochs: usize,
 }
 
 impl FilterResult {
@@ -85,13 +91,15 @@ impl FilterResult {
         Self {
             label: label.to_owned(),
             runs: Vec::new(),
-            ensembles: std::array::from_fn(|_| Ensemble::new(epochs)),
+            // Of no epochs until there is an error to add: most filters lack some of the quantities.
+            ensembles: std::array::from_fn(|_| Ensemble::new(0)),
             nees: ScalarEnsemble::new(epochs, first_scored),
             nis: ScalarEnsemble::new(epochs, first_scored),
             dimension: 0,
             covariances_broken: 0,
             first_scored,
             timing: Timing::default(),
+            epochs,
         }
     }
 
@@ -112,8 +120,8 @@ impl FilterResult {
 
     fn fold(&mut self, record: Record) -> Result<(), HarnessError> {
         if record.row.failure.is_none() {
-            for score in &record.scores {
-                self.fold_score(score)?;
+            for score in record.scores.iter() {
+                self.fold_score(&score)?;
             }
         }
         self.runs.push(record.row);
@@ -123,6 +131,9 @@ impl FilterResult {
     fn fold_score(&mut self, score: &Score) -> Result<(), HarnessError> {
         for ((ensemble, error), variance) in self.ensembles.iter_mut().zip(&score.errors).zip(&score.variances) {
             if let Some(error) = error {
+                if ensemble.epochs() == 0 {
+                    *ensemble = Ensemble::new(self.epochs);
+                }
                 ensemble.add(score.epoch, error, variance.as_ref())?;
             }
         }
@@ -141,7 +152,7 @@ impl FilterResult {
 /// One filter's part of one run, on its way to the statistics.
 struct Record {
     row: RunRow,
-    scores: Vec<Score>,
+    scores: PackedScores,
 }
 
 /// Everything a study found.
@@ -167,6 +178,7 @@ impl Study {
         in_order(
             self.runs,
             self.jobs,
+            WAITING,
             |run| self.one_run(run),
             |run, (records, report)| {
                 for ((filter, record), nav) in filters.iter_mut().zip(records).zip(report.filter_times) {
@@ -186,11 +198,11 @@ impl Study {
 
     fn one_run(&self, run: u32) -> (Vec<Record>, RunReport) {
         let epochs = self.spec.epochs();
-        let mut scores: Vec<Vec<Score>> = self.spec.filters.iter().map(|_| Vec::with_capacity(epochs)).collect();
+        let mut scores: Vec<_> = self.spec.filters.iter().map(|_| PackedScores::new(epochs)).collect();
         let report = run_once(&self.spec, run, |filter, truth, estimate| {
             let score = score(self.spec.scenario, truth, estimate)
                 .ok_or_else(|| format!("the axes of the results are undefined at {} s", truth.time))?;
-            scores[filter].push(score);
+            scores[filter].push(&score);
             Ok(())
         });
         let first = self.spec.first_scored();
@@ -206,15 +218,16 @@ impl Study {
     }
 }
 
-fn row(run: u32, scores: &[Score], first_scored: usize, ending: &Ending) -> RunRow {
+fn row(run: u32, scores: &PackedScores, first_scored: usize, ending: &Ending) -> RunRow {
     let failed = ending.failure.is_some();
     let scored = || scores.iter().filter(|s| s.epoch >= first_scored && !failed);
     let rmse = |q: Quantity| {
         let squares = scored().filter_map(|s| s.errors[q as usize].as_ref().map(Vector3::norm_squared));
         mean(squares).map(f64::sqrt)
     };
-    let mean_square =
-        |of: &dyn Fn(&Score) -> Option<Vector3<f64>>| mean_vector(scored().filter_map(of).map(|v| v.component_mul(&v)));
+    let mean_square = |of: &dyn Fn(&Score) -> Option<Vector3<f64>>| {
+        mean_vector(scored().filter_map(|s| of(&s)).map(|v| v.component_mul(&v)))
+    };
     let of_error = |q: Quantity| mean_square(&|s| s.errors[q as usize]);
     RunRow {
         run,

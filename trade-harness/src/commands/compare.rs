@@ -1,7 +1,6 @@
 //! `compare`: the Monte Carlo study.
 
 use std::io::Write;
-use std::path::PathBuf;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -11,7 +10,7 @@ use crate::HarnessError;
 use crate::cli::CompareArgs;
 use crate::output::OutputFolder;
 use crate::report::claims::verdicts;
-use crate::report::manifest::{Environment, Manifest, ModelFacts, StudyFacts};
+use crate::report::manifest::{Manifest, StudyFacts};
 use crate::report::runs::Named;
 use crate::report::summary::SummaryRow;
 use crate::report::timing::TimingRow;
@@ -47,8 +46,8 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
         results.push(result);
     }
     let report = Report::new(&studies, &results);
-    let files = report.write(&folder, &cast, jobs, Vec::new())?;
-    report.print(args, &files, out)
+    let files = report.write(&folder, &cast, jobs, 0, Vec::new())?;
+    report.print(args, &folder, &files, out)
 }
 
 /// The live line on stderr; hidden where nobody watches.
@@ -124,13 +123,17 @@ impl<'a> Report<'a> {
     }
 
     /// Writes every file and what else the command has; `manifest.json` last, so that it stands for a complete set.
+    ///
+    /// * `written`: studies, from the first, whose `epochs` files are in the folder already.
+    /// * returns: names of all files.
     pub(super) fn write(
         &self,
         folder: &OutputFolder,
         cast: &Cast,
         jobs: usize,
+        written: usize,
         more: Vec<(String, Vec<u8>)>,
-    ) -> Result<Vec<PathBuf>, HarnessError> {
+    ) -> Result<Vec<String>, HarnessError> {
         let named: Vec<Named<'_>> = self
             .studies
             .iter()
@@ -141,39 +144,40 @@ impl<'a> Report<'a> {
                 filters: &result.filters,
             })
             .collect();
-        let mut files = vec![
+        let mut files = folder.write_all(vec![
             ("summary.csv".to_owned(), summary::render(&self.rows)?),
             ("paired.csv".to_owned(), runs::render_paired(&named)?),
             ("runs.csv".to_owned(), runs::render_runs(&named)?),
             ("failures.csv".to_owned(), runs::render_failures(&named)?),
             ("timing.csv".to_owned(), timing::render(&self.timings)?),
-        ];
-        for study in &named {
+        ])?;
+        for (index, study) in named.iter().enumerate() {
             for filter in study.filters {
                 let name = format!(
                     "epochs/{}_{}_{}.csv",
                     study.spec.scenario.name, filter.label, study.case
                 );
-                files.push((name, epochs::render(study.spec, filter)?));
+                // One at a time: together they would take more memory than the results they show.
+                if index >= written {
+                    folder.write(&name, &epochs::render(study.spec, filter)?)?;
+                }
+                files.push(name);
             }
         }
-        files.extend(more);
-        let models = || cast.models.all();
-        let manifest = Manifest {
-            harness_version: env!("CARGO_PKG_VERSION"),
-            models: models().map(|m| (m.name.clone(), ModelFacts::new(m))).collect(),
-            studies: self.studies.iter().map(StudyFacts::new).collect(),
-            files: files.iter().map(|(name, _)| name.clone()).collect(),
-            environment: Environment::now(jobs, self.results.iter().map(|r| r.wall).sum(), models()),
-        };
-        files.push(("manifest.json".to_owned(), manifest.render()?));
-        files
-            .iter()
-            .map(|(name, contents)| folder.write(name, contents))
-            .collect()
+        files.extend(folder.write_all(more)?);
+        let wall = self.results.iter().map(|r| r.wall).sum();
+        let studies = self.studies.iter().map(StudyFacts::new).collect();
+        Manifest::new(&cast.models, studies, jobs, wall).write(folder, &mut files)?;
+        Ok(files)
     }
 
-    fn print(&self, args: &CompareArgs, files: &[PathBuf], out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+    fn print(
+        &self,
+        args: &CompareArgs,
+        folder: &OutputFolder,
+        files: &[String],
+        out: &mut dyn Write,
+    ) -> Result<Verdict, HarnessError> {
         // What a source claims is claimed of its own world, not of a changed one.
         let as_published =
             args.study.assignments.is_empty() && args.study.variations.is_empty() && args.study.truth.is_none();
@@ -216,7 +220,7 @@ impl<'a> Report<'a> {
             missed |= verdicts.iter().any(|v| !v.holds());
             say(out, "")?;
         }
-        closing(files, out)?;
+        closing(folder, files, out)?;
         Ok(if missed && args.check {
             Verdict::BoundsMissed
         } else {

@@ -15,6 +15,7 @@ use std::process::ExitCode;
 use crate::HarnessError;
 use crate::cli::{BuildArgs, Cli, Command, StudyArgs};
 use crate::models::{FilterChoice, Models, NAV, PAPER, TRUTH};
+use crate::output::OutputFolder;
 use crate::pack::{default_folder, fmu_path};
 use crate::report::manifest::peak_memory_mib;
 use crate::run::{Spec, chain};
@@ -65,21 +66,15 @@ fn say(out: &mut dyn Write, text: &str) -> Result<(), HarnessError> {
     })
 }
 
-/// Threads to use: as many as there are cores, unless told otherwise.
-fn jobs(asked: Option<std::num::NonZeroUsize>) -> usize {
-    asked
-        .or_else(|| std::thread::available_parallelism().ok())
-        .map_or(1, usize::from)
-}
-
 /// The last lines of a study: what it took, how to repeat it and where its results are.
-fn closing(files: &[PathBuf], out: &mut dyn Write) -> Result<(), HarnessError> {
+fn closing(folder: &OutputFolder, files: &[String], out: &mut dyn Write) -> Result<(), HarnessError> {
     if let Some(peak) = peak_memory_mib() {
         say(out, &format!("Memory:  {peak:.0} MiB at most"))?;
     }
     let line: Vec<String> = std::env::args().skip(1).collect();
     say(out, &format!("Command: trade-harness {}", line.join(" ")))?;
-    let shown: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
+    let path = |name: &String| folder.path().join(name).display().to_string();
+    let shown: Vec<String> = files.iter().map(path).collect();
     say(out, &format!("Files:   {}", shown.join("\n         ")))
 }
 

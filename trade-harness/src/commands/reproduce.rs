@@ -1,14 +1,13 @@
 //! `reproduce`: both papers rerun and held beside what they print.
 
 use std::io::Write;
-use std::path::PathBuf;
 
 use super::compare::Progress;
-use super::{Cast, Verdict, note, say, threads};
+use super::{Cast, Verdict, closing, note, say, threads};
 use crate::HarnessError;
 use crate::cli::{OptionalChoice, ReproduceArgs, StudyArgs};
 use crate::output::OutputFolder;
-use crate::report::manifest::{Environment, Manifest, ModelFacts};
+use crate::report::manifest::Manifest;
 use crate::report::{summary, table, timing};
 use crate::reproduce::{CHAPTERS, Laboratory, Notebook, Request, csv, line_text, markdown};
 use crate::run::{Spec, rehearse, run_once};
@@ -45,10 +44,9 @@ pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<Ver
     }
 
     let mut files = write(&folder, &notebook, &heading)?;
-    let manifest = bench.manifest(&notebook, &folder, &files);
-    files.push(folder.write("manifest.json", &manifest.render()?)?);
+    let studies = notebook.studies.clone();
+    Manifest::new(&bench.cast.models, studies, bench.jobs, notebook.wall).write(&folder, &mut files)?;
     let missed = notebook.missed().count();
-    let shown: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
     say(
         out,
         &format!(
@@ -58,7 +56,7 @@ pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<Ver
             bench.jobs
         ),
     )?;
-    say(out, &format!("Files:   {}", shown.join("\n         ")))?;
+    closing(&folder, &files, out)?;
     Ok(if missed > 0 {
         Verdict::BoundsMissed
     } else {
@@ -67,7 +65,7 @@ pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<Ver
 }
 
 /// Writes what has been found so far; `timing.csv` alone differs on repeat.
-fn write(folder: &OutputFolder, notebook: &Notebook, heading: &str) -> Result<Vec<PathBuf>, HarnessError> {
+fn write(folder: &OutputFolder, notebook: &Notebook, heading: &str) -> Result<Vec<String>, HarnessError> {
     let mut files = vec![
         ("reproduce.md".to_owned(), markdown(notebook, heading).into_bytes()),
         ("reproduce.csv".to_owned(), csv(notebook)?),
@@ -75,10 +73,7 @@ fn write(folder: &OutputFolder, notebook: &Notebook, heading: &str) -> Result<Ve
         ("timing.csv".to_owned(), timing::render(&notebook.timings)?),
     ];
     files.extend(notebook.files.iter().cloned());
-    files
-        .iter()
-        .map(|(name, contents)| folder.write(name, contents))
-        .collect()
+    folder.write_all(files)
 }
 
 /// Runs studies of our FMUs.
@@ -111,21 +106,6 @@ impl<'a> Bench<'a> {
             ..StudyArgs::plain(self.args.seed, &self.args.build)
         };
         self.cast.spec(&args, request.scenario)
-    }
-
-    fn manifest(&self, notebook: &Notebook, folder: &OutputFolder, files: &[PathBuf]) -> Manifest {
-        let models = || self.cast.models.all();
-        let name = |file: &PathBuf| {
-            let within = file.strip_prefix(folder.path()).unwrap_or(file);
-            within.display().to_string()
-        };
-        Manifest {
-            harness_version: env!("CARGO_PKG_VERSION"),
-            models: models().map(|m| (m.name.clone(), ModelFacts::new(m))).collect(),
-            studies: notebook.studies.clone(),
-            files: files.iter().map(name).collect(),
-            environment: Environment::now(self.jobs, notebook.wall, models()),
-        }
     }
 }
 

@@ -9,7 +9,8 @@ use cosim::Scheme;
 use serde::Serialize;
 
 use crate::HarnessError;
-use crate::models::{Model, Participant};
+use crate::models::{Model, Models, Participant};
+use crate::output::OutputFolder;
 use crate::study::Study;
 
 /// The whole file; all but `environment` depends on the study alone.
@@ -163,6 +164,30 @@ fn resident_peak_mib(status: &Path) -> Option<f64> {
 }
 
 impl Manifest {
+    /// What a command has done.
+    ///
+    /// * `jobs`: threads; `wall`: time on the clock for all runs.
+    pub fn new(models: &Models, studies: Vec<StudyFacts>, jobs: usize, wall: Duration) -> Self {
+        Self {
+            harness_version: env!("CARGO_PKG_VERSION"),
+            models: models.all().map(|m| (m.name.clone(), ModelFacts::new(m))).collect(),
+            studies,
+            files: Vec::new(),
+            environment: Environment::now(jobs, wall, models.all()),
+        }
+    }
+
+    /// Writes `manifest.json`, with the names of the files beside it, and adds its own to them.
+    ///
+    /// # Errors
+    /// [`HarnessError::Json`], [`HarnessError::Write`].
+    pub fn write(mut self, folder: &OutputFolder, files: &mut Vec<String>) -> Result<(), HarnessError> {
+        self.files.clone_from(files);
+        folder.write("manifest.json", &self.render()?)?;
+        files.push("manifest.json".to_owned());
+        Ok(())
+    }
+
     /// Contents of `manifest.json`.
     ///
     /// # Errors

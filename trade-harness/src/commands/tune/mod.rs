@@ -9,7 +9,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::compare::failure_notes;
-use super::{Cast, Verdict, jobs, note};
+use super::{Cast, Verdict, note, threads};
 use crate::HarnessError;
 use crate::cli::TuneArgs;
 use crate::output::OutputFolder;
@@ -57,7 +57,7 @@ pub(super) fn tune(args: &TuneArgs, out: &mut dyn Write) -> Result<Verdict, Harn
         files = done.write(&folder, &cast, args, &options)?;
     }
     progress.end();
-    done.print(args, &options, &files, out)
+    done.print(args, &options, &folder, &files, out)
 }
 
 fn options(args: &TuneArgs) -> Result<Options, HarnessError> {
@@ -69,7 +69,7 @@ fn options(args: &TuneArgs) -> Result<Options, HarnessError> {
         limits: Limits::new(args.nees_min, args.nees_max)?,
         evaluations: args.evaluations,
         runs: args.runs,
-        jobs: jobs(args.jobs),
+        jobs: threads(args.jobs),
     })
 }
 

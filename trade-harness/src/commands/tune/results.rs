@@ -1,7 +1,6 @@
 //! What `tune` leaves behind: the tuned sets, the judged study, and every filter at its own best.
 
 use std::io::Write;
-use std::path::PathBuf;
 
 use super::super::compare::Report;
 use super::super::{Cast, Verdict, closing, say};
@@ -64,14 +63,14 @@ impl Done {
         self.plans.iter().map(ranking).collect()
     }
 
-    /// Writes every file.
+    /// Writes every file; what shows the epochs of the scenario that has just been judged, and no earlier one.
     pub(super) fn write(
         &self,
         folder: &OutputFolder,
         cast: &Cast,
         args: &TuneArgs,
         options: &Options,
-    ) -> Result<Vec<PathBuf>, HarnessError> {
+    ) -> Result<Vec<String>, HarnessError> {
         let report = Report::new(&self.studies, &self.results);
         let rankings = self.rankings(&report, options);
         let more = vec![
@@ -80,7 +79,8 @@ impl Done {
             ("search.csv".to_owned(), self.search_csv(None, options)?),
             ("tuned.json".to_owned(), self.file.render()?),
         ];
-        report.write(folder, cast, options.jobs, more)
+        let written = self.studies.len().saturating_sub(1);
+        report.write(folder, cast, options.jobs, written, more)
     }
 
     fn markdown(&self, rankings: &[Ranking<'_>], args: &TuneArgs) -> String {
@@ -101,7 +101,8 @@ impl Done {
         &self,
         args: &TuneArgs,
         options: &Options,
-        files: &[PathBuf],
+        folder: &OutputFolder,
+        files: &[String],
         out: &mut dyn Write,
     ) -> Result<Verdict, HarnessError> {
         let report = Report::new(&self.studies, &self.results);
@@ -117,7 +118,7 @@ impl Done {
                 ),
             )?;
         }
-        closing(files, out)?;
+        closing(folder, files, out)?;
         Ok(Verdict::Done)
     }
 }
