@@ -220,7 +220,7 @@ fn mistakes_are_told_before_the_search() {
         ),
         (
             &range("fmu-nav.est.time=1:2"),
-            &["fmu-nav.est.time", "causality 'output'", "Real parameters"],
+            &["fmu-nav.est.time", "causality 'output'", "only parameters"],
         ),
         (
             &range("fmu-nav.chaser.q_coupled=1:2"),

@@ -53,7 +53,31 @@ pub struct BuildArgs {
     pub quiet: bool,
 }
 
-/// Which worlds, which filters, which parameters.
+/// Which worlds.
+#[derive(Debug, Clone, Args)]
+pub struct WorldArgs {
+    /// Scenarios, one study each
+    #[arg(
+        long = "scenario",
+        value_name = "NAME,...",
+        value_delimiter = ',',
+        default_value = "leo_venting"
+    )]
+    pub scenarios: Vec<String>,
+}
+
+/// How many runs, on how many threads.
+#[derive(Debug, Clone, Args)]
+pub struct WorkArgs {
+    /// Runs of each study
+    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=i64::from(i32::MAX)))]
+    pub runs: u32,
+    /// Threads [default: all cores]
+    #[arg(long)]
+    pub jobs: Option<std::num::NonZeroUsize>,
+}
+
+/// Which filters, which parameters.
 #[derive(Debug, Clone, Args)]
 pub struct StudyArgs {
     /// Filters of fmu-nav, each with a preset if it is not 'paper'; empty for none [default: those of the scenario, see
@@ -166,20 +190,12 @@ pub struct PackArgs {
 /// `compare`.
 #[derive(Debug, Args)]
 pub struct CompareArgs {
-    /// Scenarios, one study each
-    #[arg(
-        long = "scenario",
-        value_name = "NAME,...",
-        value_delimiter = ',',
-        default_value = "leo_venting"
-    )]
-    pub scenarios: Vec<String>,
-    /// Runs of each study
-    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=i64::from(i32::MAX)))]
-    pub runs: u32,
-    /// Threads [default: all cores]
-    #[arg(long)]
-    pub jobs: Option<std::num::NonZeroUsize>,
+    /// Which worlds.
+    #[command(flatten)]
+    pub worlds: WorldArgs,
+    /// How many runs.
+    #[command(flatten)]
+    pub work: WorkArgs,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "results/compare")]
     pub out: PathBuf,
@@ -198,19 +214,16 @@ pub struct CompareArgs {
 #[derive(Debug, Args)]
 // Seeds of the search, not of a study; and each filter once, since a search leaves its preset behind.
 #[command(mut_arg("seed", |a| a.default_value("1001").help("Seed of the worlds to search in")))]
+#[command(mut_arg("runs", |a| a.default_value("8").help("Runs of each candidate, in the same worlds for all")))]
+#[command(mut_arg("scenarios", |a| a.help("Scenarios, one search each")))]
 #[command(mut_arg("filters", |a| a.help("Filters of fmu-nav, each with a preset if it is not 'paper'; empty for none [default: every one]")))]
 pub struct TuneArgs {
-    /// Scenarios, one search each
-    #[arg(
-        long = "scenario",
-        value_name = "NAME,...",
-        value_delimiter = ',',
-        default_value = "leo_venting"
-    )]
-    pub scenarios: Vec<String>,
-    /// Runs of each candidate, in the same worlds for all
-    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=i64::from(i32::MAX)))]
-    pub runs: u32,
+    /// Which worlds.
+    #[command(flatten)]
+    pub worlds: WorldArgs,
+    /// How many runs.
+    #[command(flatten)]
+    pub work: WorkArgs,
     /// Candidates of each filter, however many parameters it has; the first is the filter as given
     #[arg(long, default_value_t = 48, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub evaluations: u32,
@@ -232,9 +245,6 @@ pub struct TuneArgs {
     /// Search a Real parameter on a logarithmic scale, beside or instead of the FMU's own range; repeatable
     #[arg(long = "range", value_name = "MODEL.VARIABLE=LOW:HIGH")]
     pub ranges: Vec<Range>,
-    /// Threads [default: all cores]
-    #[arg(long)]
-    pub jobs: Option<std::num::NonZeroUsize>,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "results/tune")]
     pub out: PathBuf,
@@ -272,16 +282,14 @@ pub struct ReplayArgs {
 
 /// `reproduce`.
 #[derive(Debug, Args)]
+#[command(mut_arg("runs", |a| a.help("Runs of each study; the bounds are meant for 100")))]
 pub struct ReproduceArgs {
-    /// Runs of each study; the bounds are meant for 100
-    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=i64::from(i32::MAX)))]
-    pub runs: u32,
+    /// How many runs.
+    #[command(flatten)]
+    pub work: WorkArgs,
     /// Seed of the studies
     #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_parser = clap::value_parser!(i32).range(0..))]
     pub seed: i32,
-    /// Threads [default: all cores]
-    #[arg(long)]
-    pub jobs: Option<std::num::NonZeroUsize>,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "results/reproduce")]
     pub out: PathBuf,
@@ -320,10 +328,24 @@ mod tests {
     fn defaults_are_those_of_the_manual() {
         let args = compare(&[]).unwrap();
         assert!(args.study.filters.is_empty() && args.study.variations.is_empty());
-        assert_eq!((args.runs, args.study.seed, args.case.as_str()), (100, 1, "nominal"));
-        assert_eq!(args.scenarios, ["leo_venting"]);
+        assert_eq!(
+            (args.work.runs, args.study.seed, args.case.as_str()),
+            (100, 1, "nominal")
+        );
+        assert_eq!(args.worlds.scenarios, ["leo_venting"]);
         assert_eq!(args.out, PathBuf::from("results/compare"));
-        assert!(args.study.step.is_none() && args.jobs.is_none());
+        assert!(args.study.step.is_none() && args.work.jobs.is_none());
+    }
+
+    #[test]
+    fn each_command_has_its_own_number_of_runs() {
+        let runs = |command| match Cli::try_parse_from(["trade-harness", command]).unwrap().command {
+            Command::Compare(args) => args.work.runs,
+            Command::Tune(args) => args.work.runs,
+            Command::Reproduce(args) => args.work.runs,
+            other => unreachable!("{other:?}"),
+        };
+        assert_eq!(["compare", "tune", "reproduce"].map(runs), [100, 8, 100]);
     }
 
     #[test]
@@ -331,7 +353,7 @@ mod tests {
         let line = "--scenario a,b --filters snc,milton@x --runs 7 --seed 3 --jobs 2 --out o --case c \
             --set fmu-truth.vent.scale=10 --set other.k=1 --step 0.25 --scheme jacobi --nav other=p.fmu --map other.y=est.r_tc_n";
         let args = compare(&line.split_whitespace().collect::<Vec<_>>()).unwrap();
-        assert_eq!(args.scenarios, ["a", "b"]);
+        assert_eq!(args.worlds.scenarios, ["a", "b"]);
         assert_eq!(args.study.assignments.len(), 2);
         assert_eq!(args.study.scheme, SchemeChoice::Jacobi);
         assert_eq!(args.study.foreign[0].label, "other");

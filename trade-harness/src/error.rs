@@ -62,8 +62,8 @@ pub enum HarnessError {
         /// Names that exist.
         known: String,
     },
-    /// `--set` of something another option governs.
-    #[error("{model}.{variable} cannot be set or varied; use {option}")]
+    /// `--set`, `--vary` or `--range` of something another option governs.
+    #[error("{model}.{variable} cannot be set, varied or searched; use {option}")]
     Reserved {
         /// Model.
         model: String,
@@ -80,8 +80,8 @@ pub enum HarnessError {
         /// Variable, value, and what would be allowed.
         source: Box<ImportError>,
     },
-    /// `--set` or `--vary` of something that is no parameter.
-    #[error("{model}.{variable} has causality '{causality}'; --set and --vary take parameters only")]
+    /// `--set`, `--vary` or `--range` of something that is no parameter.
+    #[error("{model}.{variable} has causality '{causality}'; only parameters can be set, varied or searched")]
     NotAParameter {
         /// Model.
         model: String,
@@ -90,8 +90,8 @@ pub enum HarnessError {
         /// What it is.
         causality: Causality,
     },
-    /// `--vary` of a parameter that is no number.
-    #[error("{model}.{variable} has type '{found}'; --vary takes Real parameters only")]
+    /// `--vary` or `--range` of a parameter that is no number.
+    #[error("{model}.{variable} has type '{found}'; only Real parameters can be varied or searched")]
     NotReal {
         /// Model.
         model: String,
@@ -129,16 +129,6 @@ pub enum HarnessError {
         low: f64,
         /// Upper end.
         high: f64,
-    },
-    /// A range for something that is no Real parameter.
-    #[error("{model}.{variable} {what}; a search varies Real parameters only")]
-    NotSearchable {
-        /// Model.
-        model: String,
-        /// Variable.
-        variable: String,
-        /// What it is instead.
-        what: String,
     },
     /// `--range` for a filter that takes no part.
     #[error("--range {model}.{variable} concerns no filter of this study; there are: {known}")]

@@ -2,12 +2,15 @@
 //!
 //! A study couples one truth FMU with one navigation FMU for each filter, repeats that over seeded runs on all cores,
 //! and reduces the runs to tables. Truth and filters are known only through FMI and the variable names of the
-//! interface, so anyone's FMU can take either place. No physics and no filter lives here; statistics are in `stats`,
-//! loading and stepping in `fmi2-import` and `cosim`.
+//! interface, so anyone's FMU can take either place. No filter lives here and no world: the one model of motion in use is
+//! the Clohessy-Wiltshire solution of `astro`, which [`reproduce`] holds beside the truth, since a paper quotes its drift.
+//! Statistics are in `stats`, loading and stepping in `fmi2-import` and `cosim`.
 //!
-//! Start reading at [`study::Study`], then [`run::run_once`], which is one run; [`scenarios`] lists the worlds,
-//! [`tuning`] searches for a filter's best parameters and [`commands`] is what the command line offers.
+//! Start reading at [`study::Study`], then [`run::run_once`], which is one run; [`scenarios`] lists the worlds, [`tuning`]
+//! searches for a filter's best parameters, [`reproduce`] holds what the papers print beside what the studies find, and
+//! [`commands`] is what the command line offers.
 
+pub mod bound;
 pub mod cli;
 pub mod commands;
 pub mod error;

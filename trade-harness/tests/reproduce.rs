@@ -9,10 +9,9 @@ use mocks::{Quirk, SCENARIO, spec};
 use trade_harness::HarnessError;
 use trade_harness::models::FilterChoice;
 use trade_harness::report::summary::SummaryRow;
-use trade_harness::reproduce::{CHAPTERS, Laboratory, Line, Notebook, Request, Verdict};
+use trade_harness::reproduce::{CHAPTERS, Flight, Laboratory, Line, Notebook, Request, Verdict};
 use trade_harness::run::{Spec, run_once};
 use trade_harness::scenarios::Scenario;
-use trade_harness::signals::TruthSample;
 use trade_harness::study::{Study, StudyResult};
 
 const RUNS: u32 = 6;
@@ -69,13 +68,14 @@ impl Laboratory for Mocks {
         Ok((study, result))
     }
 
-    fn truth(&mut self, request: &Request) -> Result<Vec<TruthSample>, HarnessError> {
+    fn fly(&mut self, request: &Request) -> Result<Flight, HarnessError> {
         let mut samples = Vec::new();
-        run_once(&self.spec(request), 0, |_, truth, _| {
+        let report = run_once(&self.spec(request), 0, |_, truth, _| {
             samples.push(*truth);
             Ok(())
         });
-        Ok(samples)
+        let failed = report.endings.iter().filter(|e| e.failure.is_some()).count();
+        Ok(Flight { samples, failed })
     }
 }
 
@@ -145,10 +145,22 @@ fn every_chapter_runs_what_it_announces_and_finds_it_again() {
             .iter()
             .all(|l| l.verdict() == Verdict::Holds && l.required)
     );
-    assert_eq!(
-        notebook.missed().count(),
-        notebook.lines.iter().filter(|(_, l)| l.is_missed()).count()
-    );
+    let missed: Vec<(String, String)> = notebook
+        .missed()
+        .filter(|line| line.item.starts_with("Table"))
+        .map(|line| (line.item.clone(), line.quantity.clone()))
+        .collect();
+    // Errors of 0.7 m and 0.7 m/s miss every number of Table 3, and of Table 4 the three that are held to more than a
+    // direction. Those of 0.7e-6 m/s2 are within 15 % of Table 2's x and y.
+    let both = |table: &'static str, filters: &[&'static str]| -> Vec<(String, String)> {
+        let line = |filter: &&str, name| (format!("{table}, {filter}"), format!("{filter} {name} RMSE"));
+        let lines = filters.iter().flat_map(|f| [line(f, "position"), line(f, "velocity")]);
+        lines.collect()
+    };
+    let mut expected = both("Table 3", &["observer", "rbfnn_aekf", "rbfnn_ekf", "ekf_j2"]);
+    expected.extend(both("Table 4", &["observer"]).into_iter().take(1));
+    expected.extend(both("Table 4", &["rbfnn_aekf"]));
+    assert_eq!(missed, expected);
 }
 
 #[test]
@@ -181,6 +193,10 @@ fn a_failing_run_is_a_missed_bound() {
     let line = of(&notebook, "all studies")[0];
     // Once nominal, once off-nominal.
     assert_eq!((line.value, line.is_missed()), (Some(2.0), true));
+    // The filter that rides along: in run 0 of the baselines, and in the flight for the drift.
+    let failing = Quirk::Fails { run: 0, time: 7.0 };
+    let notebook = Notebook::fill(&mut Mocks::new("snc", failing), |_| Ok(())).unwrap();
+    assert_eq!(of(&notebook, "all studies")[0].value, Some(2.0));
     let notebook = Notebook::fill(&mut Mocks::new("", Quirk::None), |_| Ok(())).unwrap();
     assert_eq!(of(&notebook, "all studies")[0].value, Some(0.0));
     // An error of whoever saves ends the work.

@@ -393,6 +393,14 @@ impl ModelDescription {
         })
     }
 
+    /// Items of the enumeration `filter`; none in FMUs without such a variable.
+    #[must_use]
+    pub fn filters(&self) -> &[EnumerationItem] {
+        self.get("filter")
+            .and_then(Variable::enumeration_items)
+            .unwrap_or_default()
+    }
+
     /// Why a filter has no meaning in a scenario; `None` where it has one.
     #[must_use]
     pub fn without_meaning(&self, filter: &str, scenario: &str) -> Option<&str> {

@@ -1,10 +1,8 @@
 //! `compare`: the Monte Carlo study.
 
 use std::io::Write;
-use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-
+use super::progress::run_watched;
 use super::{Cast, Verdict, closing, note, say, threads};
 use crate::HarnessError;
 use crate::cli::CompareArgs;
@@ -14,16 +12,16 @@ use crate::report::manifest::{Manifest, StudyFacts};
 use crate::report::runs::Named;
 use crate::report::summary::SummaryRow;
 use crate::report::timing::TimingRow;
-use crate::report::{epochs, runs, summary, table, timing};
-use crate::run::{call_time, rehearse};
+use crate::report::{epochs, measured, runs, summary, table, timing};
+use crate::run::rehearse;
 use crate::scenarios;
-use crate::study::{RunRow, Study, StudyResult};
+use crate::study::{Study, StudyResult};
 
 pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
-    let worlds = scenarios::find_all(&args.scenarios)?;
+    let worlds = scenarios::find_all(&args.worlds.scenarios)?;
     let folder = OutputFolder::prepare(&args.out)?;
     let cast = Cast::new(&args.study)?;
-    let jobs = threads(args.jobs);
+    let jobs = threads(args.work.jobs);
     let mut studies = Vec::new();
     for scenario in worlds {
         let spec = cast.spec(&args.study, scenario)?;
@@ -32,7 +30,7 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
         }
         studies.push(Study {
             spec,
-            runs: args.runs,
+            runs: args.work.runs,
             jobs,
             case: args.case.clone(),
         });
@@ -40,58 +38,11 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
 
     let mut results = Vec::new();
     for study in &studies {
-        let progress = Progress::new(study, args.study.build.quiet);
-        let result = study.run(|run, rows| progress.finished(run, rows))?;
-        progress.end();
-        results.push(result);
+        results.push(run_watched(study, args.study.build.quiet)?);
     }
     let report = Report::new(&studies, &results);
     let files = report.write(&folder, &cast, jobs, 0, Vec::new())?;
     report.print(args, &folder, &files, out)
-}
-
-/// The live line on stderr; hidden where nobody watches.
-pub(super) struct Progress<'a> {
-    study: &'a Study,
-    bar: ProgressBar,
-}
-
-impl<'a> Progress<'a> {
-    pub(super) fn new(study: &'a Study, quiet: bool) -> Self {
-        let target = if quiet {
-            ProgressDrawTarget::hidden()
-        } else {
-            ProgressDrawTarget::stderr()
-        };
-        let bar = ProgressBar::with_draw_target(Some(u64::from(study.runs)), target);
-        let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} runs, {eta} left");
-        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        bar.set_message(format!("{}, {}", study.spec.scenario.name, study.case));
-        bar.enable_steady_tick(Duration::from_millis(500));
-        Self { study, bar }
-    }
-
-    pub(super) fn finished(&self, run: u32, rows: &[RunRow]) {
-        for text in failure_notes(self.study, run, rows) {
-            self.bar.suspend(|| note(&text));
-        }
-        self.bar.inc(1);
-    }
-
-    pub(super) fn end(&self) {
-        self.bar.finish_and_clear();
-    }
-}
-
-/// A line for each filter that failed in a run.
-pub(super) fn failure_notes(study: &Study, run: u32, rows: &[RunRow]) -> impl Iterator<Item = String> {
-    let seed = study.spec.seed;
-    study.spec.filters.iter().zip(rows).filter_map(move |(filter, row)| {
-        let failure = row.failure.as_ref()?;
-        let when = failure.time.map(|t| format!(" at {t} s")).unwrap_or_default();
-        let (label, message) = (&filter.label, &failure.message);
-        Some(format!("failed: {label} seed {seed} run {run}{when}: {message}"))
-    })
 }
 
 /// All results of the command, ready to be written.
@@ -107,12 +58,9 @@ impl<'a> Report<'a> {
         let mut rows = Vec::new();
         let mut timings = Vec::new();
         for (study, result) in studies.iter().zip(results) {
-            let name = study.spec.scenario.name;
-            for (filter, participant) in result.filters.iter().zip(&study.spec.filters) {
-                rows.push(SummaryRow::new(name, &study.case, filter));
-                let call = call_time(&study.spec, participant).unwrap_or_default();
-                timings.extend(TimingRow::new(name, &filter.label, &study.case, &filter.timing, call));
-            }
+            let (summary, cost) = measured(study, result);
+            rows.extend(summary);
+            timings.extend(cost);
         }
         Self {
             studies,

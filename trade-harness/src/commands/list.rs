@@ -3,13 +3,13 @@
 use std::io::Write;
 
 use comfy_table::{ContentArrangement, Table, presets};
-use fmi2_import::{Causality, ModelDescription, Variable};
+use fmi2_import::{Causality, EnumerationItem, ModelDescription, Variable};
 
 use super::{Verdict, own_fmus, say};
 use crate::HarnessError;
 use crate::cli::ListArgs;
 use crate::models::{NAV, PAPER, TRUTH};
-use crate::scenarios::{Bound, SCENARIOS};
+use crate::scenarios::{Claim, SCENARIOS};
 
 pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
     let paths = own_fmus(&args.build, &[TRUTH, NAV])?;
@@ -19,11 +19,11 @@ pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Verdict, Harn
         .collect::<Result<Vec<_>, _>>()?;
     say(out, &scenarios())?;
     if let [truth, nav] = fmus.as_slice() {
-        let filters = filter_names(nav.description());
-        for filter in &filters {
+        let filters = nav.description().filters();
+        for filter in filters {
             say(out, &describe_filter(nav.description(), filter))?;
         }
-        let of_a_filter = |v: &Variable| filters.iter().any(|f| prefix(&v.name) == f.as_str());
+        let of_a_filter = |v: &Variable| filters.iter().any(|f| prefix(&v.name) == f.name);
         let shared = parameters(nav.description()).filter(|v| !of_a_filter(v));
         say(
             out,
@@ -53,35 +53,20 @@ fn scenarios() -> String {
             s.duration, s.scored_from, s.reference
         ));
         text.push_str(&format!("    filters: {}\n", s.filters.join(",")));
-        let same = |a: &Bound, b: &Bound| (a.filter, a.claim, a.range()) == (b.filter, b.claim, b.range());
-        for together in s.bounds.chunk_by(same) {
-            let columns: Vec<&str> = together.iter().map(|b| b.column).collect();
-            if let Some(b) = together.first() {
-                let columns = columns.join(", ");
-                text.push_str(&format!("    {} {columns} {}: {}\n", b.filter, b.range(), b.claim));
+        let same = |a: &Claim, b: &Claim| (a.filter, a.text, a.bound) == (b.filter, b.text, b.bound);
+        for together in s.claims.chunk_by(same) {
+            let columns: Vec<&str> = together.iter().map(|c| c.column).collect();
+            if let Some(claim) = together.first() {
+                let (columns, range) = (columns.join(", "), claim.bound.words(|end| end.to_string()));
+                text.push_str(&format!("    {} {columns} {range}: {}\n", claim.filter, claim.text));
             }
         }
     }
     text
 }
 
-fn filter_names(nav: &ModelDescription) -> Vec<String> {
-    let items = nav
-        .get("filter")
-        .and_then(Variable::enumeration_items)
-        .unwrap_or_default();
-    items.iter().map(|i| i.name.clone()).collect()
-}
-
-fn describe_filter(nav: &ModelDescription, filter: &str) -> String {
-    let items = nav
-        .get("filter")
-        .and_then(Variable::enumeration_items)
-        .unwrap_or_default();
-    let about = items
-        .iter()
-        .find(|i| i.name == filter)
-        .and_then(|i| i.description.as_deref());
+fn describe_filter(nav: &ModelDescription, item: &EnumerationItem) -> String {
+    let (filter, about) = (item.name.as_str(), item.description.as_deref());
     let mut text = format!(
         "Filter {filter}{}\n",
         about.map(|a| format!(": {a}")).unwrap_or_default()

@@ -4,6 +4,7 @@ mod compare;
 mod inspect;
 mod list;
 mod pack;
+mod progress;
 mod replay;
 mod reproduce;
 mod tune;

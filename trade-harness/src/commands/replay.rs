@@ -8,7 +8,7 @@ use super::{Cast, Verdict, note, say};
 use crate::HarnessError;
 use crate::cli::ReplayArgs;
 use crate::output::{prepare_file, write_whole};
-use crate::report::cell;
+use crate::report::{cell, finished};
 use crate::run::{rehearse, run_once};
 use crate::scenarios::{self, Scenario};
 use crate::score::{Quantity, Score, score};
@@ -33,10 +33,7 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut dyn Write) -> Result<Verdict, 
     for record in lines.iter().flatten() {
         writer.write_record(record)?;
     }
-    let bytes = writer
-        .into_inner()
-        .map_err(|e| HarnessError::Csv(e.into_error().into()))?;
-    write_whole(&args.out, &bytes)?;
+    write_whole(&args.out, &finished(writer)?)?;
     for (filter, ending) in spec.filters.iter().zip(&report.endings) {
         if let Some(failure) = &ending.failure {
             let when = failure.time.map(|t| format!(" at {t} s")).unwrap_or_default();

@@ -2,26 +2,36 @@
 
 use std::io::Write;
 
-use super::compare::Progress;
+use super::progress::run_watched;
 use super::{Cast, Verdict, closing, note, say, threads};
 use crate::HarnessError;
 use crate::cli::{OptionalChoice, ReproduceArgs, StudyArgs};
 use crate::output::OutputFolder;
 use crate::report::manifest::Manifest;
 use crate::report::{summary, table, timing};
-use crate::reproduce::{CHAPTERS, Laboratory, Notebook, Request, csv, line_text, markdown};
+use crate::reproduce::{CHAPTERS, Flight, Laboratory, Notebook, Request, csv, line_text, markdown};
 use crate::run::{Spec, rehearse, run_once};
-use crate::signals::TruthSample;
 use crate::study::{Study, StudyResult};
+
+/// Runs that the bounds are meant for.
+const MEANT_RUNS: u32 = 100;
+/// Below this, standard errors are so large that a bound says little.
+const FEW_RUNS: u32 = 30;
 
 pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
     let folder = OutputFolder::prepare(&args.out)?;
     let mut bench = Bench::new(args)?;
+    if args.work.runs < FEW_RUNS {
+        note(&format!(
+            "note: the bounds are meant for {MEANT_RUNS} runs; with {} a bound may be missed, or held, by chance",
+            args.work.runs
+        ));
+    }
     // Everything is set up once before the first run, so that a mistake shows at once.
     for request in CHAPTERS.iter().flat_map(|chapter| (chapter.requests)()) {
         rehearse(&bench.spec(&request)?)?;
     }
-    let heading = format!("{} runs of each study from seed {}.", args.runs, args.seed);
+    let heading = format!("{} runs of each study from seed {}.", args.work.runs, args.seed);
     let (mut said, mut chapter) = (0, "");
     let notebook = Notebook::fill(&mut bench, |notebook| {
         for (title, line) in &notebook.lines[said..] {
@@ -88,7 +98,7 @@ impl<'a> Bench<'a> {
         Ok(Self {
             args,
             cast: Cast::new(&StudyArgs::plain(args.seed, &args.build))?,
-            jobs: threads(args.jobs),
+            jobs: threads(args.work.jobs),
         })
     }
 
@@ -113,17 +123,15 @@ impl Laboratory for Bench<'_> {
     fn study(&mut self, request: &Request) -> Result<(Study, StudyResult), HarnessError> {
         let study = Study {
             spec: self.spec(request)?,
-            runs: self.args.runs.div_ceil(request.one_run_in),
+            runs: self.args.work.runs.div_ceil(request.one_run_in),
             jobs: self.jobs,
             case: request.case.clone(),
         };
-        let progress = Progress::new(&study, self.args.build.quiet);
-        let result = study.run(|run, rows| progress.finished(run, rows))?;
-        progress.end();
+        let result = run_watched(&study, self.args.build.quiet)?;
         Ok((study, result))
     }
 
-    fn truth(&mut self, request: &Request) -> Result<Vec<TruthSample>, HarnessError> {
+    fn fly(&mut self, request: &Request) -> Result<Flight, HarnessError> {
         let spec = self.spec(request)?;
         let mut samples = Vec::with_capacity(spec.epochs());
         let report = run_once(&spec, 0, |filter, truth, _| {
@@ -132,9 +140,11 @@ impl Laboratory for Bench<'_> {
             }
             Ok(())
         });
+        let mut failed = 0;
         for failure in report.endings.iter().filter_map(|e| e.failure.as_ref()) {
+            failed += 1;
             note(&format!("failed: {} run 0: {}", request.case, failure.message));
         }
-        Ok(samples)
+        Ok(Flight { samples, failed })
     }
 }

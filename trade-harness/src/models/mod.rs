@@ -8,7 +8,7 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use cosim::{FmuSlave, Slave, Value};
+use cosim::{BaseType, FmuSlave, Slave, Value};
 use fmi2_import::{Causality, Fmu, ModelDescription};
 
 use crate::HarnessError;
@@ -83,8 +83,7 @@ impl Participant {
     }
 
     fn contract<'a>(&'a self, own: &'a str) -> &'a str {
-        let alias = self.aliases.iter().find(|(name, _)| name == own);
-        alias.map_or(own, |(_, contract)| contract)
+        contract_name(&self.aliases, own)
     }
 }
 
@@ -127,10 +126,15 @@ impl Model {
     }
 
     /// The name of the contract that a name of this FMU stands for.
-    fn contract_name(&self, own: &str) -> String {
-        let alias = self.aliases.iter().find(|(o, _)| o == own);
-        alias.map_or(own, |(_, contract)| contract).to_owned()
+    fn contract_name<'a>(&'a self, own: &'a str) -> &'a str {
+        contract_name(&self.aliases, own)
     }
+}
+
+/// The name of the contract that an FMU's own name stands for: another one only where it is mapped.
+fn contract_name<'a>(aliases: &'a [(String, String)], own: &'a str) -> &'a str {
+    let alias = aliases.iter().find(|(name, _)| name == own);
+    alias.map_or(own, |(_, contract)| contract)
 }
 
 /// The mapping of each scalar that a mapping of names stands for.
@@ -299,13 +303,8 @@ impl Models {
 
     /// Time between the truth's samples, s, if it has a parameter of that name.
     pub fn sample_period(&self, truth: &Participant) -> Option<f64> {
-        let set = truth
-            .starts
-            .iter()
-            .find(|(name, _)| name == "sample_period")
-            .map(|(_, v)| v.clone());
         let variable = self.truth.description().get("sample_period");
-        match set.or_else(|| variable?.start())? {
+        match truth.start("sample_period").cloned().or_else(|| variable?.start())? {
             Value::Real(period) => Some(period),
             _ => None,
         }
@@ -352,7 +351,7 @@ impl<'a> StartValues<'a> {
         mut tuned: impl Iterator<Item = &'t TunedSet> + Clone,
     ) -> Result<Self, HarnessError> {
         let description = self.model.description();
-        let items = description.variable("filter")?.enumeration_items().unwrap_or_default();
+        let items = description.filters();
         if !items.iter().any(|i| i.name == choice.name) {
             return Err(HarnessError::UnknownFilter {
                 name: choice.name.clone(),
@@ -436,7 +435,7 @@ impl<'a> StartValues<'a> {
             starts: self
                 .values
                 .iter()
-                .map(|(name, value)| (self.model.contract_name(name), value.clone()))
+                .map(|(name, value)| (self.model.contract_name(name).to_owned(), value.clone()))
                 .collect(),
             varied: Vec::new(),
         }
@@ -469,6 +468,28 @@ fn check_parameter(model: &Model, variable: &str) -> Result<(), HarnessError> {
             variable,
             causality,
         });
+    }
+    Ok(())
+}
+
+/// Refuses a range of anything but a Real parameter that can take both of its ends.
+pub(crate) fn check_real_range(model: &Model, variable: &str, ends: [f64; 2]) -> Result<(), HarnessError> {
+    check_parameter(model, variable)?;
+    let described = model.description().variable(variable)?;
+    if described.base_type() != BaseType::Real {
+        return Err(HarnessError::NotReal {
+            model: model.name.clone(),
+            variable: variable.to_owned(),
+            found: described.base_type(),
+        });
+    }
+    for end in ends {
+        described
+            .parse_value(&end.to_string())
+            .map_err(|source| HarnessError::Value {
+                model: model.name.clone(),
+                source: Box::new(source),
+            })?;
     }
     Ok(())
 }

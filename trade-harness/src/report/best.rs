@@ -26,37 +26,28 @@ pub struct Entry<'a> {
     pub notes: Vec<String>,
 }
 
-macro_rules! row {
-    ($($(#[$doc:meta])* $field:ident: $type:ty,)*) => {
-        #[derive(Debug, Clone, PartialEq, Serialize)]
-        struct Row {
-            $($(#[$doc])* $field: $type,)*
-        }
-
-        const COLUMNS: &[&str] = &[$(stringify!($field),)*];
-    };
-}
-
 row! {
-    scenario: String,
-    filter: String,
-    case: String,
-    runs: u32,
-    failed: usize,
-    diverged: usize,
-    pos_rmse_m: Option<f64>,
-    pos_rank: Option<usize>,
-    vel_rmse_m_s: Option<f64>,
-    vel_rank: Option<usize>,
-    acc_rmse_m_s2: Option<f64>,
-    acc_rank: Option<usize>,
-    nees: Option<f64>,
-    nis: Option<f64>,
-    objective: &'static str,
-    /// Objective of the filter as given, on the same worlds.
-    given: Option<f64>,
-    tuned: String,
-    notes: String,
+    struct Row {
+        scenario: String,
+        filter: String,
+        case: String,
+        runs: u32,
+        failed: usize,
+        diverged: usize,
+        pos_rmse_m: Option<f64>,
+        pos_rank: Option<usize>,
+        vel_rmse_m_s: Option<f64>,
+        vel_rank: Option<usize>,
+        acc_rmse_m_s2: Option<f64>,
+        acc_rank: Option<usize>,
+        nees: Option<f64>,
+        nis: Option<f64>,
+        objective: &'static str,
+        /// Objective of the filter as given, on the same worlds.
+        given: Option<f64>,
+        tuned: String,
+        notes: String,
+    }
 }
 
 /// Every filter of one scenario, best objective first.

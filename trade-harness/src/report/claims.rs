@@ -1,13 +1,13 @@
 //! Whether a study bears out what its scenario's source claims.
 
 use super::summary::SummaryRow;
-use crate::scenarios::{Bound, Scenario};
+use crate::scenarios::{Claim, Scenario};
 
-/// A bound, and the number that was held to it.
+/// A claim, and the number that was held to its bound.
 #[derive(Debug, Clone, Copy)]
 pub struct Verdict<'a> {
-    /// The bound.
-    pub bound: &'a Bound,
+    /// The claim.
+    pub claim: &'a Claim,
     /// The number; `None` where the study has none, which misses the bound.
     pub value: Option<f64>,
 }
@@ -15,21 +15,20 @@ pub struct Verdict<'a> {
 impl Verdict<'_> {
     /// Whether the number is within the bound.
     pub fn holds(&self) -> bool {
-        self.value
-            .is_some_and(|v| (self.bound.low..=self.bound.high).contains(&v))
+        self.claim.bound.holds(self.value)
     }
 }
 
-/// Every bound of the scenario whose filter is part of the study.
+/// Every claim of the scenario whose filter is part of the study.
 pub fn verdicts<'a>(scenario: &'a Scenario, rows: &[SummaryRow]) -> Vec<Verdict<'a>> {
-    let judge = |bound: &'a Bound| {
+    let judge = |claim: &'a Claim| {
         let row = rows
             .iter()
-            .find(|r| r.scenario == scenario.name && r.filter == bound.filter)?;
+            .find(|r| r.scenario == scenario.name && r.filter == claim.filter)?;
         Some(Verdict {
-            bound,
-            value: row.number(bound.column),
+            claim,
+            value: row.number(claim.column),
         })
     };
-    scenario.bounds.iter().filter_map(judge).collect()
+    scenario.claims.iter().filter_map(judge).collect()
 }

@@ -1,6 +1,6 @@
 //! `epochs/*.csv`: what the paper's figures show, for one filter, as numbers over time.
 
-use super::cell;
+use super::{cell, finished};
 use crate::HarnessError;
 use crate::run::Spec;
 use crate::score::Quantity;
@@ -78,7 +78,5 @@ pub fn render(spec: &Spec, result: &FilterResult) -> Result<Vec<u8>, HarnessErro
         record.push(cell(result.nis.at(epoch).map(|(_, mean)| mean)));
         writer.write_record(&record)?;
     }
-    writer
-        .into_inner()
-        .map_err(|e| HarnessError::Csv(e.into_error().into()))
+    finished(writer)
 }

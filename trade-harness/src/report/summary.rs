@@ -12,134 +12,124 @@ use crate::study::{FilterResult, RunRow, mean_vector};
 /// Confidence of the bounds of the NEES.
 const CONFIDENCE: f64 = 0.95;
 
-macro_rules! row {
-    ($($(#[$doc:meta])* $field:ident: $type:ty,)*) => {
-        /// One row; `None` is an empty cell.
-        #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-        pub struct SummaryRow {
-            $($(#[$doc])* pub $field: $type,)*
-        }
-
-        /// Columns of the file, in order.
-        pub const COLUMNS: &[&str] = &[$(stringify!($field),)*];
-    };
-}
-
 row! {
-    /// Scenario.
-    scenario: String,
-    /// Filter with its preset.
-    filter: String,
-    /// Case.
-    case: String,
-    /// Runs asked for.
-    runs: u32,
-    /// Runs that ended with an error; they take no part in the statistics.
-    failed: usize,
-    /// Runs that lost the target.
-    diverged: usize,
-    /// Root mean square of the norm of the position error, m.
-    pos_rmse_m: Option<f64>,
-    /// The same of velocity, m/s.
-    vel_rmse_m_s: Option<f64>,
-    /// The same of acceleration, m/s2.
-    acc_rmse_m_s2: Option<f64>,
-    /// Median over time and axes of estimated over sample sigma of position.
-    ratio_pos: Option<f64>,
-    /// The same of velocity.
-    ratio_vel: Option<f64>,
-    /// The same of acceleration.
-    ratio_acc: Option<f64>,
-    /// Root mean square over time and axes of mean error over its standard error.
-    mean_err_sigma: Option<f64>,
-    /// Mean NEES over its dimension.
-    nees: Option<f64>,
-    /// Median NEES over its dimension.
-    nees_median: Option<f64>,
-    /// Mean NIS over its rows.
-    nis: Option<f64>,
-    /// `ratio_pos` of the first axis alone: radial, or LVLH x.
-    ratio_pos_r: Option<f64>,
-    /// Second axis: transverse, or LVLH y.
-    ratio_pos_t: Option<f64>,
-    /// Third axis: normal, or LVLH z.
-    ratio_pos_n: Option<f64>,
-    /// `ratio_vel` of the first axis.
-    ratio_vel_r: Option<f64>,
-    /// Second axis.
-    ratio_vel_t: Option<f64>,
-    /// Third axis.
-    ratio_vel_n: Option<f64>,
-    /// `ratio_acc` of the first axis.
-    ratio_acc_r: Option<f64>,
-    /// Second axis.
-    ratio_acc_t: Option<f64>,
-    /// Third axis.
-    ratio_acc_n: Option<f64>,
-    /// Root mean square of the norm of the bias error, m/s2.
-    bias_rmse_m_s2: Option<f64>,
-    /// Median over time and axes of estimated over sample sigma of the bias.
-    ratio_bias: Option<f64>,
-    /// Share of position errors within three of the filter's sigmas; 0.9973 for a Gaussian.
-    coverage_3s_pos: Option<f64>,
-    /// The same of velocity.
-    coverage_3s_vel: Option<f64>,
-    /// The same of acceleration.
-    coverage_3s_acc: Option<f64>,
-    /// The same of the bias.
-    coverage_3s_bias: Option<f64>,
-    /// Lower 95 % bound of the mean over runs of NEES over its dimension, at one epoch.
-    nees_low: Option<f64>,
-    /// Upper bound.
-    nees_high: Option<f64>,
-    /// Share of epochs whose mean NEES is within those bounds.
-    nees_inside: Option<f64>,
-    /// Number of states of the NEES.
-    nees_dimension: Option<usize>,
-    /// Samples whose covariance was not symmetric, positive definite and finite.
-    cov_broken: u64,
-    /// Root mean square of the position error on the first axis (radial, or LVLH x), m.
-    pos_rmse_r_m: Option<f64>,
-    /// Second axis (transverse, or LVLH y).
-    pos_rmse_t_m: Option<f64>,
-    /// Third axis (normal, or LVLH z).
-    pos_rmse_n_m: Option<f64>,
-    /// Root mean square of the velocity error on the first axis (radial, or LVLH x), m/s.
-    vel_rmse_r_m_s: Option<f64>,
-    /// Second axis (transverse, or LVLH y).
-    vel_rmse_t_m_s: Option<f64>,
-    /// Third axis (normal, or LVLH z).
-    vel_rmse_n_m_s: Option<f64>,
-    /// Root mean square of the acceleration error on the first axis (radial, or LVLH x), m/s2.
-    acc_rmse_r_m_s2: Option<f64>,
-    /// Second axis (transverse, or LVLH y).
-    acc_rmse_t_m_s2: Option<f64>,
-    /// Third axis (normal, or LVLH z).
-    acc_rmse_n_m_s2: Option<f64>,
-    /// Standard error of `pos_rmse_m` over the runs, m.
-    pos_rmse_se_m: Option<f64>,
-    /// The same of `vel_rmse_m_s`, m/s.
-    vel_rmse_se_m_s: Option<f64>,
-    /// The same of `acc_rmse_m_s2`, m/s2.
-    acc_rmse_se_m_s2: Option<f64>,
-    /// Standard error of `acc_rmse_r_m_s2`, m/s2.
-    acc_rmse_se_r_m_s2: Option<f64>,
-    /// Standard error of `acc_rmse_t_m_s2`, m/s2.
-    acc_rmse_se_t_m_s2: Option<f64>,
-    /// Standard error of `acc_rmse_n_m_s2`, m/s2.
-    acc_rmse_se_n_m_s2: Option<f64>,
-    /// Standard error of `nees` over the runs.
-    nees_se: Option<f64>,
-    /// Standard error of `nis` over the runs.
-    nis_se: Option<f64>,
-    /// Root mean square of the true acceleration: the RMSE of an estimate that is always zero, m/s2.
-    acc_rmse_of_zero_m_s2: Option<f64>,
-    /// The same on the first axis.
-    acc_rmse_of_zero_r_m_s2: Option<f64>,
-    /// Second axis.
-    acc_rmse_of_zero_t_m_s2: Option<f64>,
-    /// Third axis.
-    acc_rmse_of_zero_n_m_s2: Option<f64>,
+    /// One row; `None` is an empty cell.
+    pub struct SummaryRow {
+        /// Scenario.
+        scenario: String,
+        /// Filter with its preset.
+        filter: String,
+        /// Case.
+        case: String,
+        /// Runs asked for.
+        runs: u32,
+        /// Runs that ended with an error; they take no part in the statistics.
+        failed: usize,
+        /// Runs that lost the target.
+        diverged: usize,
+        /// Root mean square of the norm of the position error, m.
+        pos_rmse_m: Option<f64>,
+        /// The same of velocity, m/s.
+        vel_rmse_m_s: Option<f64>,
+        /// The same of acceleration, m/s2.
+        acc_rmse_m_s2: Option<f64>,
+        /// Median over time and axes of estimated over sample sigma of position.
+        ratio_pos: Option<f64>,
+        /// The same of velocity.
+        ratio_vel: Option<f64>,
+        /// The same of acceleration.
+        ratio_acc: Option<f64>,
+        /// Root mean square over time and axes of mean error over its standard error.
+        mean_err_sigma: Option<f64>,
+        /// Mean NEES over its dimension.
+        nees: Option<f64>,
+        /// Median NEES over its dimension.
+        nees_median: Option<f64>,
+        /// Mean NIS over its rows.
+        nis: Option<f64>,
+        /// `ratio_pos` of the first axis alone: radial, or LVLH x.
+        ratio_pos_r: Option<f64>,
+        /// Second axis: transverse, or LVLH y.
+        ratio_pos_t: Option<f64>,
+        /// Third axis: normal, or LVLH z.
+        ratio_pos_n: Option<f64>,
+        /// `ratio_vel` of the first axis.
+        ratio_vel_r: Option<f64>,
+        /// Second axis.
+        ratio_vel_t: Option<f64>,
+        /// Third axis.
+        ratio_vel_n: Option<f64>,
+        /// `ratio_acc` of the first axis.
+        ratio_acc_r: Option<f64>,
+        /// Second axis.
+        ratio_acc_t: Option<f64>,
+        /// Third axis.
+        ratio_acc_n: Option<f64>,
+        /// Root mean square of the norm of the bias error, m/s2.
+        bias_rmse_m_s2: Option<f64>,
+        /// Median over time and axes of estimated over sample sigma of the bias.
+        ratio_bias: Option<f64>,
+        /// Share of position errors within three of the filter's sigmas; 0.9973 for a Gaussian.
+        coverage_3s_pos: Option<f64>,
+        /// The same of velocity.
+        coverage_3s_vel: Option<f64>,
+        /// The same of acceleration.
+        coverage_3s_acc: Option<f64>,
+        /// The same of the bias.
+        coverage_3s_bias: Option<f64>,
+        /// Lower 95 % bound of the mean over runs of NEES over its dimension, at one epoch.
+        nees_low: Option<f64>,
+        /// Upper bound.
+        nees_high: Option<f64>,
+        /// Share of epochs whose mean NEES is within those bounds.
+        nees_inside: Option<f64>,
+        /// Number of states of the NEES.
+        nees_dimension: Option<usize>,
+        /// Samples whose covariance was not symmetric, positive definite and finite.
+        cov_broken: u64,
+        /// Root mean square of the position error on the first axis (radial, or LVLH x), m.
+        pos_rmse_r_m: Option<f64>,
+        /// Second axis (transverse, or LVLH y).
+        pos_rmse_t_m: Option<f64>,
+        /// Third axis (normal, or LVLH z).
+        pos_rmse_n_m: Option<f64>,
+        /// Root mean square of the velocity error on the first axis (radial, or LVLH x), m/s.
+        vel_rmse_r_m_s: Option<f64>,
+        /// Second axis (transverse, or LVLH y).
+        vel_rmse_t_m_s: Option<f64>,
+        /// Third axis (normal, or LVLH z).
+        vel_rmse_n_m_s: Option<f64>,
+        /// Root mean square of the acceleration error on the first axis (radial, or LVLH x), m/s2.
+        acc_rmse_r_m_s2: Option<f64>,
+        /// Second axis (transverse, or LVLH y).
+        acc_rmse_t_m_s2: Option<f64>,
+        /// Third axis (normal, or LVLH z).
+        acc_rmse_n_m_s2: Option<f64>,
+        /// Standard error of `pos_rmse_m` over the runs, m.
+        pos_rmse_se_m: Option<f64>,
+        /// The same of `vel_rmse_m_s`, m/s.
+        vel_rmse_se_m_s: Option<f64>,
+        /// The same of `acc_rmse_m_s2`, m/s2.
+        acc_rmse_se_m_s2: Option<f64>,
+        /// Standard error of `acc_rmse_r_m_s2`, m/s2.
+        acc_rmse_se_r_m_s2: Option<f64>,
+        /// Standard error of `acc_rmse_t_m_s2`, m/s2.
+        acc_rmse_se_t_m_s2: Option<f64>,
+        /// Standard error of `acc_rmse_n_m_s2`, m/s2.
+        acc_rmse_se_n_m_s2: Option<f64>,
+        /// Standard error of `nees` over the runs.
+        nees_se: Option<f64>,
+        /// Standard error of `nis` over the runs.
+        nis_se: Option<f64>,
+        /// Root mean square of the true acceleration: the RMSE of an estimate that is always zero, m/s2.
+        acc_rmse_of_zero_m_s2: Option<f64>,
+        /// The same on the first axis.
+        acc_rmse_of_zero_r_m_s2: Option<f64>,
+        /// Second axis.
+        acc_rmse_of_zero_t_m_s2: Option<f64>,
+        /// Third axis.
+        acc_rmse_of_zero_n_m_s2: Option<f64>,
+    }
 }
 
 impl SummaryRow {

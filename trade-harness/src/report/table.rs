@@ -136,7 +136,7 @@ pub fn render_axes(rows: &[SummaryRow], axes: [&str; 3]) -> String {
 pub fn render_claims(verdicts: &[Verdict<'_>]) -> String {
     let mut text = String::new();
     for verdict in verdicts {
-        let b = verdict.bound;
+        let claim = verdict.claim;
         let word = if verdict.holds() { "holds " } else { "MISSED" };
         let value = number(verdict.value);
         if !text.is_empty() {
@@ -146,10 +146,10 @@ pub fn render_claims(verdicts: &[Verdict<'_>]) -> String {
         let _ = write!(
             text,
             "{word}  {} {} = {value} (bound: {}): {}",
-            b.filter,
-            b.column,
-            b.range(),
-            b.claim
+            claim.filter,
+            claim.column,
+            claim.bound.words(|end| end.to_string()),
+            claim.text
         );
     }
     text
@@ -158,7 +158,8 @@ pub fn render_claims(verdicts: &[Verdict<'_>]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenarios::Bound;
+    use crate::bound::Bound;
+    use crate::scenarios::Claim;
 
     fn row(filter: &str, acceleration: Option<f64>) -> SummaryRow {
         SummaryRow {
@@ -236,38 +237,35 @@ mod tests {
 
     #[test]
     fn claims_say_what_was_held_to_what() {
-        let near = Bound {
+        let near = Claim {
             filter: "milton",
             column: "ratio_pos",
-            low: 0.95,
-            high: 1.2,
-            claim: "overlay",
+            bound: Bound::between(0.95, 1.2),
+            text: "overlay",
         };
-        let above = Bound {
+        let above = Claim {
             filter: "milton",
             column: "ratio_vel",
-            low: 1.2,
-            high: f64::INFINITY,
-            claim: "modest",
+            bound: Bound::between(1.2, f64::INFINITY),
+            text: "modest",
         };
-        let none = Bound {
+        let none = Claim {
             filter: "milton",
             column: "diverged",
-            low: 0.0,
-            high: 0.0,
-            claim: "stays",
+            bound: Bound::between(0.0, 0.0),
+            text: "stays",
         };
         let text = render_claims(&[
             Verdict {
-                bound: &near,
+                claim: &near,
                 value: Some(1.05),
             },
             Verdict {
-                bound: &above,
+                claim: &above,
                 value: Some(1.1),
             },
             Verdict {
-                bound: &none,
+                claim: &none,
                 value: None,
             },
         ]);

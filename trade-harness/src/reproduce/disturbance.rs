@@ -1,6 +1,6 @@
 //! Sec. IV.B: how well the network reconstructs the acceleration that its filter's model leaves out (Table 2).
 
-use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request};
+use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request, SHARE};
 use crate::HarnessError;
 use crate::scenarios::FORMATION;
 
@@ -42,9 +42,6 @@ const TABLE_2: [Axis; 3] = [
         required: false,
     },
 ];
-
-/// Largest difference from the table, as a share of it.
-const SHARE: f64 = 0.15;
 
 fn requests() -> Vec<Request> {
     vec![Request::new(&FORMATION, "disturbance", &[FILTER]).with_j2_alone()]

@@ -49,25 +49,23 @@ const ORDERS: f64 = 6.0;
 const SIZE: f64 = 1e-5;
 
 fn requests() -> Vec<Request> {
-    vec![
-        Request::new(&FIRST_ORBIT, "learning", &[FILTER]).with_j2_alone(),
-        flight(),
-    ]
+    vec![learning(), flight()]
 }
 
-/// The true relative motion under every force; a filter has to ride along.
+fn learning() -> Request {
+    Request::new(&FIRST_ORBIT, "learning", &[FILTER]).with_j2_alone()
+}
+
+/// Flown for the true relative motion under every force; a filter has to ride along.
 fn flight() -> Request {
     Request::new(&FIRST_ORBIT, "flight", &["snc"])
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {
-    let requests = requests();
-    let [learning, flight] = &requests[..] else {
-        return Ok(());
-    };
-    let result = notebook.run(laboratory, learning)?;
+    let learning = learning();
+    let result = notebook.run(laboratory, &learning)?;
     // Nothing about the truth is random here but its sensors, so one run has the d of all.
-    let truth = laboratory.truth(learning)?;
+    let truth = notebook.fly(laboratory, &learning)?;
     let curve: Vec<Point> = result.filters.iter().flat_map(|f| curve(f, &truth)).collect();
     let columns = [
         "t_s",
@@ -88,7 +86,7 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
         &curve.iter().map(row).collect::<Vec<_>>(),
     )?;
     claims(&curve).into_iter().for_each(|line| notebook.push(line));
-    drift(&laboratory.truth(flight)?)
+    drift(&notebook.fly(laboratory, &flight())?)
         .into_iter()
         .for_each(|line| notebook.push(line));
     Ok(())

@@ -1,34 +1,6 @@
 //! One number beside the paper's.
 
-/// A range that a number must lie in to bear out the paper.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bound {
-    /// Smallest value.
-    pub low: f64,
-    /// Largest value.
-    pub high: f64,
-}
-
-impl Bound {
-    /// Between two values.
-    pub const fn between(low: f64, high: f64) -> Self {
-        Self { low, high }
-    }
-
-    /// One value.
-    pub const fn exactly(value: f64) -> Self {
-        Self::between(value, value)
-    }
-
-    /// Within a share of a positive number.
-    pub fn within(share: f64, of: f64) -> Self {
-        Self::between(of * (1.0 - share), of * (1.0 + share))
-    }
-
-    fn contains(&self, value: f64) -> bool {
-        (self.low..=self.high).contains(&value)
-    }
-}
+use crate::bound::Bound;
 
 /// What a number says about the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -132,10 +104,10 @@ impl Line {
 
     /// What the number says.
     pub fn verdict(&self) -> Verdict {
-        match (self.bound, self.value) {
-            (None, _) => Verdict::PrintedOnly,
-            (Some(bound), Some(value)) if bound.contains(value) => Verdict::Holds,
-            _ => Verdict::Fails,
+        match self.bound {
+            None => Verdict::PrintedOnly,
+            Some(bound) if bound.holds(self.value) => Verdict::Holds,
+            Some(_) => Verdict::Fails,
         }
     }
 

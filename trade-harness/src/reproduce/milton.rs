@@ -2,7 +2,7 @@
 
 use super::{Bound, Chapter, Laboratory, Line, MILTON_PAPER, Notebook, Request};
 use crate::HarnessError;
-use crate::scenarios;
+use crate::scenarios::{LEO_VENTING, NRHO_VENTING, Scenario};
 
 /// The filter of the paper.
 const FILTER: &str = "milton";
@@ -13,42 +13,56 @@ pub(super) const CHAPTER: Chapter = Chapter {
     write,
 };
 
+/// The worlds of the paper.
+const LOW_ORBIT: &Scenario = &LEO_VENTING;
+const HALO_ORBIT: &Scenario = &NRHO_VENTING;
+
+fn request(world: &'static Scenario) -> Request {
+    Request::new(world, "nominal", &[FILTER])
+}
+
 fn requests() -> Vec<Request> {
-    let worlds = scenarios::SCENARIOS.iter();
-    worlds
-        .filter(|world| world.bounds.iter().any(|b| b.filter == FILTER))
-        .map(|world| Request::new(world, "nominal", &[FILTER]))
-        .collect()
+    vec![request(LOW_ORBIT), request(HALO_ORBIT)]
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {
-    let requests = requests();
-    for request in &requests {
+    for request in &requests() {
         notebook.run(laboratory, request)?;
-        for claim in request.scenario.bounds.iter().filter(|b| b.filter == FILTER) {
+        for claim in request.scenario.claims.iter().filter(|c| c.filter == FILTER) {
             let quantity = format!("{} {FILTER} {}", request.scenario.name, claim.column);
-            let line = Line::new(MILTON_PAPER, claim.claim, &quantity, "1")
+            let line = Line::new(MILTON_PAPER, claim.text, &quantity, "1")
                 .value(notebook.number(request, FILTER, claim.column))
-                .bound(Bound::between(claim.low, claim.high))
+                .bound(claim.bound)
                 .required(true);
             notebook.push(line);
         }
     }
-    // In the order of the scenarios: low Earth orbit, then the halo orbit.
-    if let [low, halo] = &requests[..] {
-        for column in ["ratio_vel", "ratio_acc"] {
-            let quantity = format!("{FILTER} {column}, {} over {}", halo.scenario.name, low.scenario.name);
-            let of = |request| notebook.number(request, FILTER, column);
-            let line = Line::new(
-                MILTON_PAPER,
-                "over-estimated less near the Moon than in low Earth orbit (Figs. 9 and 10)",
-                &quantity,
-                "1",
-            )
-            .value(Option::zip(of(halo), of(low)).map(|(h, l)| h / l))
-            .bound(Bound::between(0.0, 1.0));
-            notebook.push(line);
-        }
+    for column in ["ratio_vel", "ratio_acc"] {
+        let quantity = format!("{FILTER} {column}, {} over {}", HALO_ORBIT.name, LOW_ORBIT.name);
+        let of = |world| notebook.number(&request(world), FILTER, column);
+        let line = Line::new(
+            MILTON_PAPER,
+            "over-estimated less near the Moon than in low Earth orbit (Figs. 9 and 10)",
+            &quantity,
+            "1",
+        )
+        .value(Option::zip(of(HALO_ORBIT), of(LOW_ORBIT)).map(|(halo, low)| halo / low))
+        .bound(Bound::between(0.0, 1.0));
+        notebook.push(line);
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenarios::SCENARIOS;
+
+    #[test]
+    fn no_claim_of_the_paper_is_left_out() {
+        let has_claims = |world: &&Scenario| world.claims.iter().any(|c| c.filter == FILTER);
+        let with_claims: Vec<_> = SCENARIOS.iter().filter(has_claims).map(|w| w.name).collect();
+        let run: Vec<_> = requests().iter().map(|r| r.scenario.name).collect();
+        assert_eq!(run, with_claims);
+    }
 }

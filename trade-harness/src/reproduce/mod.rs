@@ -19,16 +19,16 @@ use std::time::Duration;
 
 use crate::HarnessError;
 use crate::models::{Assignment, TRUTH, Variation};
-use crate::report::csv_bytes;
 use crate::report::manifest::StudyFacts;
 use crate::report::summary::SummaryRow;
 use crate::report::timing::TimingRow;
-use crate::run::call_time;
+use crate::report::{csv_bytes, measured};
 use crate::scenarios::Scenario;
 use crate::signals::TruthSample;
 use crate::study::{Study, StudyResult};
 
-pub use line::{Bound, Line, Verdict};
+pub use crate::bound::Bound;
+pub use line::{Line, Verdict};
 pub use render::{csv, line_text, markdown};
 
 /// The paper of the venting scenarios.
@@ -36,11 +36,14 @@ const MILTON_PAPER: &str = "Mamich and Zanetti";
 /// The paper of the formation.
 const NETWORK_PAPER: &str = "Pesce, Silvestrini and Lavagna";
 
+/// Largest difference from a table of that paper, as a share of it.
+const SHARE: f64 = 0.15;
+
 /// A part of the reproduction.
 pub struct Chapter {
     /// Its heading.
     pub title: &'static str,
-    /// The studies it runs.
+    /// The studies it runs, and what it only flies for the truth of run 0.
     pub requests: fn() -> Vec<Request>,
     /// Runs them and writes down what they show.
     pub write: fn(&mut dyn Laboratory, &mut Notebook) -> Result<(), HarnessError>,
@@ -56,7 +59,7 @@ pub const CHAPTERS: &[Chapter] = &[
     neurons::CHAPTER,
 ];
 
-/// A study that a chapter needs.
+/// A study that a chapter needs, or a flight: run 0 of one.
 #[derive(Debug, Clone)]
 pub struct Request {
     /// The world.
@@ -109,11 +112,20 @@ pub trait Laboratory {
     /// What a filter or the truth refuses; a run that fails is counted in the result.
     fn study(&mut self, request: &Request) -> Result<(Study, StudyResult), HarnessError>;
 
-    /// The true states of run 0 of a study, sample by sample.
+    /// Runs the worlds and filters of run 0 of a study once, for its true states.
     ///
     /// # Errors
-    /// As [`Laboratory::study`].
-    fn truth(&mut self, request: &Request) -> Result<Vec<TruthSample>, HarnessError>;
+    /// As [`Laboratory::study`]; a flight that fails says so in its result.
+    fn fly(&mut self, request: &Request) -> Result<Flight, HarnessError>;
+}
+
+/// The truth of one run.
+#[derive(Debug, Clone, Default)]
+pub struct Flight {
+    /// True states, sample by sample.
+    pub samples: Vec<TruthSample>,
+    /// Filters beside it that ended with an error, and so perhaps before the last sample.
+    pub failed: usize,
 }
 
 /// What the chapters have found so far.
@@ -131,6 +143,8 @@ pub struct Notebook {
     pub files: Vec<(String, Vec<u8>)>,
     /// Time on the clock for all runs.
     pub wall: Duration,
+    /// Filters that ended a flight with an error.
+    failed_flights: usize,
     /// Title of the chapter that is being written.
     chapter: &'static str,
 }
@@ -166,16 +180,19 @@ impl Notebook {
     /// Runs a study and keeps its summary and cost.
     fn run(&mut self, laboratory: &mut dyn Laboratory, request: &Request) -> Result<StudyResult, HarnessError> {
         let (study, result) = laboratory.study(request)?;
-        let name = study.spec.scenario.name;
-        for (filter, participant) in result.filters.iter().zip(&study.spec.filters) {
-            self.rows.push(SummaryRow::new(name, &study.case, filter));
-            let call = call_time(&study.spec, participant).unwrap_or_default();
-            let timing = TimingRow::new(name, &filter.label, &study.case, &filter.timing, call);
-            self.timings.extend(timing);
-        }
+        let (rows, timings) = measured(&study, &result);
+        self.rows.extend(rows);
+        self.timings.extend(timings);
         self.studies.push(StudyFacts::new(&study));
         self.wall += result.wall;
         Ok(result)
+    }
+
+    /// The true states of run 0 of a study; a failure is counted.
+    fn fly(&mut self, laboratory: &mut dyn Laboratory, request: &Request) -> Result<Vec<TruthSample>, HarnessError> {
+        let flight = laboratory.fly(request)?;
+        self.failed_flights += flight.failed;
+        Ok(flight.samples)
     }
 
     /// A column of the summary; `None` where there is no such row, or the cell is empty.
@@ -195,7 +212,7 @@ impl Notebook {
 
     /// Statistics over the runs that are left would hide those that are not.
     fn count_failures(&mut self) {
-        let failed: usize = self.rows.iter().map(|row| row.failed).sum();
+        let failed = self.failed_flights + self.rows.iter().map(|row| row.failed).sum::<usize>();
         let line = Line::new(
             "",
             "all studies",

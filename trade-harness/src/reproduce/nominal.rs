@@ -1,6 +1,6 @@
 //! Sec. IV.C: the filters against each other under their nominal tuning (Table 3), with the baselines it leaves out.
 
-use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request};
+use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request, SHARE};
 use crate::HarnessError;
 use crate::scenarios::FORMATION;
 
@@ -44,9 +44,6 @@ pub(super) const TABLE_3: [Row; 4] = [
 
 /// The same Kalman filter with a plain Clohessy-Wiltshire model: constant process noise, and an acceleration state.
 const BASELINES: [&str; 2] = ["snc", "fixed_q"];
-
-/// Largest difference from the table, as a share of it.
-const SHARE: f64 = 0.15;
 
 pub(super) fn request() -> Request {
     let filters: Vec<_> = TABLE_3.iter().map(|row| row.filter).chain(BASELINES).collect();

@@ -1,7 +1,7 @@
 //! Sec. IV.D: the same filters with process noise or gain off by a random factor (Table 4).
 
 use super::nominal::{self, Row};
-use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request};
+use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request, SHARE};
 use crate::HarnessError;
 use crate::models::{Distribution, NAV, Variation};
 use crate::scenarios::FORMATION;
@@ -40,9 +40,6 @@ const TABLE_4: [Row; 4] = [
 
 /// Rows held to the table: filter, and whether position and velocity are. The others are held to the direction alone.
 const HELD: [(&str, [bool; 2]); 2] = [("rbfnn_aekf", [true, true]), ("observer", [true, false])];
-
-/// Largest difference from the table, as a share of it.
-const SHARE: f64 = 0.15;
 
 fn requests() -> Vec<Request> {
     let filters = TABLE_4.map(|row| row.filter);

@@ -2,8 +2,8 @@
 
 use super::{Line, Notebook, Verdict};
 use crate::HarnessError;
-use crate::report::cell;
 use crate::report::table::number;
+use crate::report::{cell, finished};
 
 const COLUMNS: [&str; 13] = [
     "chapter",
@@ -45,9 +45,7 @@ pub fn csv(notebook: &Notebook) -> Result<Vec<u8>, HarnessError> {
             &line.note,
         ])?;
     }
-    writer
-        .into_inner()
-        .map_err(|e| HarnessError::Csv(e.into_error().into()))
+    finished(writer)
 }
 
 /// Contents of `reproduce.md`: a table for each chapter.
@@ -101,9 +99,7 @@ fn bound(line: &Line) -> String {
     match line.bound {
         None => String::new(),
         Some(b) if b.low.is_infinite() => "nothing to compare with".to_owned(),
-        Some(b) if b.high.is_infinite() => format!("at least {}", number(Some(b.low))),
-        Some(b) if b.low.total_cmp(&b.high).is_eq() => format!("exactly {}", printed(b.low)),
-        Some(b) => format!("{} to {}", number(Some(b.low)), number(Some(b.high))),
+        Some(b) => b.words(|end| number(Some(end))),
     }
 }
 

@@ -53,7 +53,7 @@ pub(crate) const SCENARIO: Scenario = Scenario {
         "ekf_j2",
     ],
     // What its source prints is compared by `reproduce`, which runs this world in several ways.
-    bounds: &[],
+    claims: &[],
 };
 
 /// The variables are in the target's LVLH axes already.

@@ -10,12 +10,15 @@ mod nrho_venting;
 use nalgebra::{Matrix3, Vector3};
 
 pub(crate) use formation::SCENARIO as FORMATION;
+pub(crate) use leo_venting::SCENARIO as LEO_VENTING;
+pub(crate) use nrho_venting::SCENARIO as NRHO_VENTING;
 
 use crate::HarnessError;
+use crate::bound::Bound;
 use crate::signals::TruthSample;
 
 /// Every scenario, in the order lists show them.
-pub const SCENARIOS: &[Scenario] = &[leo_venting::SCENARIO, nrho_venting::SCENARIO, formation::SCENARIO];
+pub const SCENARIOS: &[Scenario] = &[LEO_VENTING, NRHO_VENTING, FORMATION];
 
 /// One world.
 #[derive(Debug, Clone)]
@@ -35,7 +38,7 @@ pub struct Scenario {
     /// Filters of fmu-nav that are compared unless others are asked for, as `--filters` takes them.
     pub filters: &'static [&'static str],
     /// What the reproduction is held to.
-    pub bounds: &'static [Bound],
+    pub claims: &'static [Claim],
 }
 
 /// Names of the variables that are compared, and the axes results are given in.
@@ -90,32 +93,17 @@ pub struct Signal {
     pub estimate: &'static str,
 }
 
-/// A range that one column of `summary.csv` must lie in.
+/// What a source says of one column of `summary.csv`.
 #[derive(Debug)]
-pub struct Bound {
+pub struct Claim {
     /// Filter label, as given to `--filters`.
     pub filter: &'static str,
     /// Column of `summary.csv`.
     pub column: &'static str,
-    /// Smallest value.
-    pub low: f64,
-    /// Largest value.
-    pub high: f64,
-    /// What it says about the source.
-    pub claim: &'static str,
-}
-
-impl Bound {
-    /// The range in words.
-    pub fn range(&self) -> String {
-        if self.high.is_infinite() {
-            format!("at least {}", self.low)
-        } else if self.low.total_cmp(&self.high).is_eq() {
-            format!("exactly {}", self.low)
-        } else {
-            format!("{} to {}", self.low, self.high)
-        }
-    }
+    /// What the number is held to.
+    pub bound: Bound,
+    /// The claim in words.
+    pub text: &'static str,
 }
 
 /// What the venting worlds have in common: range and angles to a target, results in RTN.
@@ -168,14 +156,13 @@ const fn milton_claims(
     over_estimated: &'static str,
     inside: &'static str,
     unbiased: &'static str,
-) -> [Bound; 15] {
-    const fn milton(column: &'static str, low: f64, high: f64, claim: &'static str) -> Bound {
-        Bound {
+) -> [Claim; 15] {
+    const fn milton(column: &'static str, low: f64, high: f64, text: &'static str) -> Claim {
+        Claim {
             filter: "milton",
             column,
-            low,
-            high,
-            claim,
+            bound: Bound::between(low, high),
+            text,
         }
     }
     const ANY: f64 = f64::INFINITY;
@@ -266,13 +253,10 @@ mod tests {
             for filter in scenario.filters {
                 assert!(filter.parse::<crate::models::FilterChoice>().is_ok(), "{filter}");
             }
-            for bound in scenario.bounds {
-                assert!(bound.low <= bound.high, "{}: {}", scenario.name, bound.column);
-                assert!(
-                    crate::report::summary::COLUMNS.contains(&bound.column),
-                    "{}",
-                    bound.column
-                );
+            for claim in scenario.claims {
+                let Claim { bound, column, .. } = claim;
+                assert!(bound.low <= bound.high, "{}: {column}", scenario.name);
+                assert!(crate::report::summary::COLUMNS.contains(column), "{column}");
             }
         }
         let error = find("leo_vent").unwrap_err().to_string();

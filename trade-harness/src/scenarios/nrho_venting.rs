@@ -12,7 +12,7 @@ const OVER_ESTIMATED: &str =
 const INSIDE: &str = "the runs stay inside the estimated 3 sigma (Figs. 8-10)";
 const UNBIASED: &str = "the mean error is zero within its sampling noise (Figs. 8-10)";
 
-pub(super) const SCENARIO: Scenario = Scenario {
+pub(crate) const SCENARIO: Scenario = Scenario {
     name: "nrho_venting",
     about: "Chaser approaches a venting target near the Moon; dynamics and adaptation in rotating nondimensional axes",
     reference: "Mamich and Zanetti, Sec. IV.B, Tables 5-7, Figs. 8-13",
@@ -23,7 +23,7 @@ pub(super) const SCENARIO: Scenario = Scenario {
         ..VENTING_SIGNALS
     },
     filters: VENTING_FILTERS,
-    bounds: &milton_claims(OVERLAY, OVER_ESTIMATED, INSIDE, UNBIASED),
+    claims: &milton_claims(OVERLAY, OVER_ESTIMATED, INSIDE, UNBIASED),
 };
 
 /// Rows R, T, N of the target's orbit about the Moon, from its position and its inertial velocity relative to the Moon.

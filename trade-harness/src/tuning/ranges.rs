@@ -1,10 +1,10 @@
 //! Which parameters of a filter are searched, and over which range.
 
 use cosim::Value;
-use fmi2_import::{BaseType, Causality, ModelDescription};
+use fmi2_import::ModelDescription;
 
 use crate::HarnessError;
-use crate::models::{Assignment, Model, Participant, Range};
+use crate::models::{Assignment, Model, Participant, Range, check_real_range};
 
 /// Share of a range, counted in decades, that is called its edge.
 const EDGE: f64 = 0.05;
@@ -66,8 +66,8 @@ fn rounded(value: f64) -> f64 {
 /// * `fixed`: what `--set` says; that is not searched.
 ///
 /// # Errors
-/// [`HarnessError::SearchRange`], [`HarnessError::NotSearchable`], [`HarnessError::SetAndSearched`],
-/// [`HarnessError::VariedAndSearched`], or a range beyond what the variable can take.
+/// [`HarnessError::SearchRange`], [`HarnessError::SetAndSearched`], [`HarnessError::VariedAndSearched`], or those of what
+/// is no Real parameter or cannot take an end of its range.
 pub fn axes(
     model: &Model,
     filter: Option<&str>,
@@ -120,26 +120,10 @@ pub fn axes(
 /// Whether a parameter of fmu-nav acts on this filter: one under its own prefix does, and so does one under no filter's.
 pub fn concerns(nav: &ModelDescription, filter: &str, variable: &str) -> bool {
     let prefix = variable.split('.').next().unwrap_or(variable);
-    let filters = nav
-        .get("filter")
-        .and_then(|v| v.enumeration_items())
-        .unwrap_or_default();
-    prefix == filter || !filters.iter().any(|i| i.name == prefix)
+    prefix == filter || !nav.filters().iter().any(|i| i.name == prefix)
 }
 
 fn check(model: &Model, name: &str, low: f64, high: f64) -> Result<(), HarnessError> {
-    let variable = model.fmu.description().variable(name)?;
-    let of = |what: String| HarnessError::NotSearchable {
-        model: model.name.clone(),
-        variable: name.to_owned(),
-        what,
-    };
-    if variable.base_type() != BaseType::Real {
-        return Err(of(format!("has type {}", variable.base_type())));
-    }
-    if variable.causality != Causality::Parameter {
-        return Err(of(format!("has causality '{}'", variable.causality)));
-    }
     if !(low > 0.0 && low < high && high.is_finite()) {
         return Err(HarnessError::SearchRange {
             model: model.name.clone(),
@@ -148,15 +132,7 @@ fn check(model: &Model, name: &str, low: f64, high: f64) -> Result<(), HarnessEr
             high,
         });
     }
-    for end in [low, high] {
-        variable
-            .parse_value(&format!("{end:?}"))
-            .map_err(|source| HarnessError::Value {
-                model: model.name.clone(),
-                source: Box::new(source),
-            })?;
-    }
-    Ok(())
+    check_real_range(model, name, [low, high])
 }
 
 fn start(description: &ModelDescription, participant: &Participant, name: &str) -> Option<f64> {

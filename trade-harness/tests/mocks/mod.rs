@@ -45,7 +45,7 @@ pub static SCENARIO: Scenario = Scenario {
         report_axes: target_rtn,
     },
     filters: &["good"],
-    bounds: &[],
+    claims: &[],
 };
 
 /// Error of the estimate of a sample, the same on position and velocity; R, T, N are the axes x, y, z of this world.

@@ -4,23 +4,20 @@ mod plan;
 mod results;
 
 use std::io::Write;
-use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-
-use super::compare::failure_notes;
-use super::{Cast, Verdict, note, threads};
+use super::progress::Progress;
+use super::{Cast, Verdict, threads};
 use crate::HarnessError;
 use crate::cli::TuneArgs;
 use crate::output::OutputFolder;
-use crate::scenarios::{self, Scenario};
+use crate::scenarios;
 use crate::tuning::standing::Limits;
 use crate::tuning::study::Options;
 use plan::{Plan, check_ranges};
 use results::Done;
 
 pub(super) fn tune(args: &TuneArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
-    let worlds = scenarios::find_all(&args.scenarios)?;
+    let worlds = scenarios::find_all(&args.worlds.scenarios)?;
     let options = options(args)?;
     let folder = OutputFolder::prepare(&args.out)?;
     let mut cast = Cast::new(&args.study)?;
@@ -30,11 +27,13 @@ pub(super) fn tune(args: &TuneArgs, out: &mut dyn Write) -> Result<Verdict, Harn
         .map(|scenario| Plan::new(args, options, &cast, scenario))
         .collect::<Result<Vec<_>, _>>()?;
 
-    let progress = Progress::new(plans.iter().map(|p| p.work(args)).sum(), args.study.build.quiet);
+    // Over the whole command, so that the time left covers the judging, too.
+    let work = plans.iter().map(|p| p.work(args)).sum();
+    let progress = Progress::new(work, "filter runs", args.study.build.quiet);
     let mut done = Done::new(args);
     let mut files = Vec::new();
     for mut plan in plans {
-        progress.doing(plan.scenario, "search");
+        progress.doing(format!("{} search", plan.scenario.name));
         while plan.tuning.round(|n| progress.advance(n))? {
             folder.write("search.csv", &done.search_csv(Some(&plan), &options)?)?;
         }
@@ -43,11 +42,11 @@ pub(super) fn tune(args: &TuneArgs, out: &mut dyn Write) -> Result<Verdict, Harn
         folder.write("tuned.json", &done.file.render()?)?;
         cast.models.add_tuned(sets);
 
-        progress.doing(plan.scenario, "judge");
+        progress.doing(format!("{} judge", plan.scenario.name));
         let study = plan.judge(args, &options, &cast)?;
         let beside = study.spec.filters.len() as u64;
         let result = study.run(|run, rows| {
-            failure_notes(&study, run, rows).for_each(|text| progress.note(&text));
+            progress.failures(&study, run, rows);
             progress.advance(beside);
         })?;
         done.plans.push(plan);
@@ -68,43 +67,7 @@ fn options(args: &TuneArgs) -> Result<Options, HarnessError> {
         objective: args.objective,
         limits: Limits::new(args.nees_min, args.nees_max)?,
         evaluations: args.evaluations,
-        runs: args.runs,
-        jobs: threads(args.jobs),
+        runs: args.work.runs,
+        jobs: threads(args.work.jobs),
     })
-}
-
-/// The live line on stderr: runs of filters over the whole command, so that the time left covers the judging, too.
-struct Progress {
-    bar: ProgressBar,
-}
-
-impl Progress {
-    fn new(work: u64, quiet: bool) -> Self {
-        let target = if quiet {
-            ProgressDrawTarget::hidden()
-        } else {
-            ProgressDrawTarget::stderr()
-        };
-        let bar = ProgressBar::with_draw_target(Some(work), target);
-        let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} filter runs, {eta} left");
-        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        bar.enable_steady_tick(Duration::from_millis(500));
-        Self { bar }
-    }
-
-    fn doing(&self, scenario: &Scenario, what: &str) {
-        self.bar.set_message(format!("{} {what}", scenario.name));
-    }
-
-    fn advance(&self, filter_runs: u64) {
-        self.bar.inc(filter_runs);
-    }
-
-    fn note(&self, text: &str) {
-        self.bar.suspend(|| note(text));
-    }
-
-    fn end(&self) {
-        self.bar.finish_and_clear();
-    }
 }

@@ -2,8 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use fmi2_import::Variable;
-
 use super::super::{Cast, note};
 use crate::HarnessError;
 use crate::cli::{StudyArgs, TuneArgs};
@@ -23,13 +21,8 @@ fn choices(args: &TuneArgs, cast: &Cast) -> Vec<FilterChoice> {
     if !args.study.filters.is_empty() {
         return args.study.filters.iter().filter_map(|f| f.0.clone()).collect();
     }
-    let nav = cast
-        .models
-        .nav
-        .as_ref()
-        .and_then(|nav| nav.fmu.description().get("filter"));
-    let items = nav.and_then(Variable::enumeration_items).unwrap_or_default();
-    items.iter().filter_map(|item| item.name.parse().ok()).collect()
+    let items = cast.models.nav.iter().flat_map(|nav| nav.fmu.description().filters());
+    items.filter_map(|item| item.name.parse().ok()).collect()
 }
 
 /// Every `--range` names a filter of the study, and none a variable twice.
