@@ -25,7 +25,7 @@ struct Head {
     lost: bool,
 }
 
-/// Bits of a head, from the first of several alike.
+/// Bits of [`Head::present`]; of several fields alike, that of the first.
 enum Field {
     Errors = 0,
     Variances = QUANTITIES as isize,
@@ -77,7 +77,7 @@ impl PackedScores {
         self.heads.push(Head {
             epoch: score.epoch,
             present,
-            // Nine at most.
+            // At most nine, as the rows of the covariance.
             dimension: score.dimension as u8,
             covariance_broken: score.covariance_broken,
             lost: score.lost,
@@ -110,7 +110,7 @@ impl PackedScores {
 mod tests {
     use super::*;
 
-    /// Every combination of fields, with numbers that no copy could mistake for others.
+    /// Thousands of combinations of fields, each number a different one.
     #[test]
     fn scores_come_out_as_they_went_in() {
         let mut numbers = (1..).map(|n| f64::from(n) / 7.0);

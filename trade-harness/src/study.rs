@@ -211,7 +211,12 @@ impl Study {
             .zip(&report.endings)
             .map(|(scores, ending)| Record {
                 row: row(run, &scores, first, ending),
-                scores,
+                // Those of a failed run count for nothing.
+                scores: if ending.failure.is_none() {
+                    scores
+                } else {
+                    PackedScores::default()
+                },
             })
             .collect();
         (records, report)

@@ -105,7 +105,7 @@ impl<'a> Report<'a> {
                     "epochs/{}_{}_{}.csv",
                     study.spec.scenario.name, filter.label, study.case
                 );
-                // One at a time: together they would take more memory than the results they show.
+                // Written as they are rendered: together they take more room than the results they show.
                 if index >= written {
                     folder.write(&name, &epochs::render(study.spec, filter)?)?;
                 }
