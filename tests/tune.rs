@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{fmu, harness, harness_ok, read_csv};
+use common::{fmu, harness, harness_ok, read_csv, repacked};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -34,7 +34,22 @@ fn a_search_is_judged_apart_and_compare_repeats_the_judgement() {
         folder.path().join("b"),
         folder.path().join("c"),
     );
-    let foreign = format!("theirs={}", text(&fmu("fmu-nav")));
+    // A stranger is one filter and all its ranges are searched, so it brings those of the filter alone that it is.
+    let theirs = folder.path().join("theirs.fmu");
+    repacked(&fmu("fmu-nav"), &theirs, |name, bytes| {
+        if name != "modelDescription.xml" {
+            return Some(bytes);
+        }
+        let kept = |line: &&str| {
+            let own = ["fixed_q.s", "snc.q"]
+                .iter()
+                .any(|v| line.contains(&format!("\"{v}\"")));
+            own || !line.contains("<Search ")
+        };
+        let xml = String::from_utf8(bytes).unwrap();
+        Some(xml.lines().filter(kept).collect::<Vec<_>>().join("\n").into_bytes())
+    });
+    let foreign = format!("theirs={}", text(&theirs));
     let tune = |out: &Path, jobs: &str| {
         let search = [
             "--runs",
