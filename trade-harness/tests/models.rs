@@ -41,9 +41,9 @@ fn write_fmu(folder: &Path, name: &str, variables: &str) -> PathBuf {
     <SimpleType name="Scenario"><Enumeration><Item name="leo_venting" value="1"/></Enumeration></SimpleType>
     <SimpleType name="Filter"><Enumeration><Item name="fixed_q" value="1"/><Item name="milton" value="2"/><Item name="observer" value="3"/></Enumeration></SimpleType>
   </TypeDefinitions>
-  <VendorAnnotations><Tool name="trade-harness"><Presets>
+  <VendorAnnotations><Tool name="trade-harness"><Filters><Presets>
     <Preset filter="milton" name="short" about="a short buffer"><Set variable="milton.m_b" value="5"/><Set variable="milton.whiten" value="true"/></Preset>
-  </Presets><Meaning><Only filter="observer" scenarios="formation" why="it needs the state measured in full"/></Meaning></Tool></VendorAnnotations>
+  </Presets><Meaning><Only filter="observer" scenarios="formation" why="it needs the state measured in full"/></Meaning></Filters></Tool></VendorAnnotations>
   <ModelVariables>{variables}</ModelVariables>
   <ModelStructure/>
 </fmiModelDescription>"#

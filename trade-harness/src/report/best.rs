@@ -35,14 +35,13 @@ row! {
         failed: usize,
         diverged: usize,
         pos_rmse_m: Option<f64>,
-        pos_rank: Option<usize>,
         vel_rmse_m_s: Option<f64>,
-        vel_rank: Option<usize>,
         acc_rmse_m_s2: Option<f64>,
-        acc_rank: Option<usize>,
         nees: Option<f64>,
         nis: Option<f64>,
         objective: &'static str,
+        /// Place by the objective.
+        rank: Option<usize>,
         /// Objective of the filter as given, on the same worlds.
         given: Option<f64>,
         tuned: String,
@@ -67,10 +66,11 @@ impl<'a> Ranking<'a> {
         Self { entries, objective }
     }
 
-    /// Place of a filter by one error, from 1; equals share a place.
-    fn rank(&self, of: Objective, entry: &Entry<'_>) -> Option<usize> {
-        let own = of.of(entry.best)?;
-        let better = |e: &&Entry<'_>| of.of(e.best).is_some_and(|other| other < own);
+    /// Place of a filter by the objective, from 1; equals share a place. What it was not tuned for is no contest.
+    fn rank(&self, entry: &Entry<'_>) -> Option<usize> {
+        let of = |e: &Entry<'_>| self.objective.of(e.best);
+        let own = of(entry)?;
+        let better = |e: &&Entry<'_>| of(e).is_some_and(|other| other < own);
         Some(1 + self.entries.iter().filter(better).count())
     }
 
@@ -83,14 +83,12 @@ impl<'a> Ranking<'a> {
             failed: e.best.failed,
             diverged: e.best.diverged,
             pos_rmse_m: e.best.pos_rmse_m,
-            pos_rank: self.rank(Objective::Position, e),
             vel_rmse_m_s: e.best.vel_rmse_m_s,
-            vel_rank: self.rank(Objective::Velocity, e),
             acc_rmse_m_s2: e.best.acc_rmse_m_s2,
-            acc_rank: self.rank(Objective::Acceleration, e),
             nees: e.best.nees,
             nis: e.best.nis,
             objective: self.objective.name(),
+            rank: self.rank(e),
             given: e.given.and_then(|g| self.objective.of(g)),
             tuned: e.tuned.clone(),
             notes: e.notes.join("; "),
@@ -100,15 +98,21 @@ impl<'a> Ranking<'a> {
     /// Cells of the table, by filter; the headings are [`HEADERS`].
     fn cells(&self) -> impl Iterator<Item = [String; HEADERS.len()]> {
         self.rows().zip(&self.entries).map(|(row, entry)| {
-            let ranked = |value: Option<f64>, rank: Option<usize>| match rank {
-                Some(rank) => format!("{} ({rank})", number(value)),
-                None => number(value),
+            let error = |of: Objective, value: Option<f64>| match row.rank {
+                Some(rank) if of == self.objective => format!("{} ({rank})", number(value)),
+                _ => number(value),
             };
+            let errors = [
+                error(Objective::Position, row.pos_rmse_m),
+                error(Objective::Velocity, row.vel_rmse_m_s),
+                error(Objective::Acceleration, row.acc_rmse_m_s2),
+            ];
+            let [position, velocity, acceleration] = errors;
             [
                 row.filter,
-                ranked(row.pos_rmse_m, row.pos_rank),
-                ranked(row.vel_rmse_m_s, row.vel_rank),
-                ranked(row.acc_rmse_m_s2, row.acc_rank),
+                position,
+                velocity,
+                acceleration,
                 number(row.nees),
                 number(row.nis),
                 row.failed.to_string(),
@@ -181,7 +185,7 @@ fn is_text(column: usize) -> bool {
 
 /// How to read the table.
 pub const LEGEND: &str = "\
-in brackets: place by that error; NEES, NIS: 1 on average when consistent
+in brackets: place by what the filters were tuned for, the other errors being what comes with it; NEES, NIS: 1 on average when consistent
 objective as given: RMSE of the filter as named to --filters, in the same worlds
 nav: time in the filter's fmi2DoStep";
 

@@ -1,5 +1,7 @@
 //! Sec. IV.B: how well the network reconstructs the acceleration that its filter's model leaves out (Table 2).
 
+use super::beyond::ratio;
+use super::nominal::consistency;
 use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request, SHARE};
 use crate::HarnessError;
 use crate::scenarios::FORMATION;
@@ -66,22 +68,25 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
             let zero = format!("d_{} RMSE of the predictor d = 0", axis.name);
             lines.push(
                 Line::new(NETWORK_PAPER, &item, &zero, "m/s2")
-                    .printed(axis.printed)
                     .value(number(format!("acc_rmse_of_zero_{}_m_s2", axis.column)))
                     .note("what an estimate that is always zero scores over the same epochs"),
             );
+            let value = ratio(
+                number(format!("acc_rmse_{}_m_s2", axis.column)),
+                number(format!("acc_rmse_of_zero_{}_m_s2", axis.column)),
+            );
+            lines.push(
+                Line::new(
+                    NETWORK_PAPER,
+                    &format!("Sec. IV.B: the network reconstructs d_{}", axis.name),
+                    &format!("{FILTER} d_{} RMSE over that of d = 0", axis.name),
+                    "1",
+                )
+                .value(value)
+                .bound(Bound::between(0.0, 1.0)),
+            );
         }
-        lines.push(
-            Line::new(
-                NETWORK_PAPER,
-                "Table 2",
-                &format!("{FILTER} NEES over its dimension"),
-                "1",
-            )
-            .value(number("nees".to_owned()))
-            .error(number("nees_se".to_owned()))
-            .note("1 when the covariance is honest; the paper does not print it"),
-        );
+        lines.extend(consistency(notebook, request, "beside Table 2", FILTER));
         lines.into_iter().for_each(|line| notebook.push(line));
     }
     Ok(())

@@ -8,6 +8,7 @@ use nalgebra::{Vector3, Vector6};
 
 use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request};
 use crate::HarnessError;
+use crate::models::NAV;
 use crate::scenarios::{FORMATION, Scenario};
 use crate::score::Quantity;
 use crate::signals::TruthSample;
@@ -45,11 +46,28 @@ const CONVERGED_SHARE: f64 = 0.1;
 const SETTLED: f64 = 2.0;
 /// Orders of magnitude that the estimate is off at first.
 const ORDERS: f64 = 6.0;
+/// A convergence that asks for no level.
+const SETTLING: &str = "first time with the RMS error within twice its later median";
+const SETTLING_NOTE: &str = "set by the relaxation factor, which the paper does not print: held to nothing";
+const USUAL: &str = "median of RMS error over true d from 350 s to the end of the orbit";
 /// Size of the perturbations, m/s2.
 const SIZE: f64 = 1e-5;
 
+/// Relaxation factors beside the preset's: the paper prints none, and it is what sets how fast the start is forgotten.
+const RELAXATIONS: [f64; 2] = [0.96, 0.97];
+
 fn requests() -> Vec<Request> {
-    vec![learning(), flight()]
+    let others = RELAXATIONS.map(forgetting);
+    [learning(), flight()].into_iter().chain(others).collect()
+}
+
+fn forgetting(relaxation: f64) -> Request {
+    let case = format!("learning_{relaxation}");
+    let request = Request::new(&FIRST_ORBIT, &case, &[FILTER]).with_j2_alone();
+    Request {
+        one_run_in: 5,
+        ..request.set(NAV, "rbfnn_aekf.relaxation", &relaxation.to_string())
+    }
 }
 
 fn learning() -> Request {
@@ -86,6 +104,32 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
         &curve.iter().map(row).collect::<Vec<_>>(),
     )?;
     claims(&curve).into_iter().for_each(|line| notebook.push(line));
+    for relaxation in RELAXATIONS {
+        let result = notebook.run(laboratory, &forgetting(relaxation))?;
+        let curve: Vec<Point> = result.filters.iter().flat_map(|f| self::curve(f, &truth)).collect();
+        notebook.push(
+            Line::new(
+                NETWORK_PAPER,
+                "Fig. 4: the network converges after nearly 350 s",
+                &format!("{FILTER} with relaxation {relaxation}: {SETTLING}"),
+                "s",
+            )
+            .printed(CONVERGED_AT)
+            .value(settled(&curve))
+            .note(SETTLING_NOTE),
+        );
+        notebook.push(
+            Line::new(
+                NETWORK_PAPER,
+                "Fig. 4: converged is within 10 % of the nominal value",
+                &format!("{FILTER} with relaxation {relaxation}: {USUAL}"),
+                "1",
+            )
+            .printed(CONVERGED_SHARE)
+            .value(median(&curve, CONVERGED_AT, Point::share))
+            .bound(Bound::between(0.0, CONVERGED_SHARE)),
+        );
+    }
     drift(&notebook.fly(laboratory, &flight())?)
         .into_iter()
         .for_each(|line| notebook.push(line));
@@ -129,9 +173,6 @@ fn claims(curve: &[Point]) -> Vec<Line> {
     let converged = curve.iter().find(|p| p.share() <= CONVERGED_SHARE).map(|p| p.time);
     let at = curve.iter().find(|p| p.time >= CONVERGED_AT).map(Point::share);
     let usual = median(curve, CONVERGED_AT, Point::share);
-    let settled = median(curve, CONVERGED_BY, |p| p.error.norm())
-        .and_then(|level| curve.iter().find(|p| p.error.norm() <= SETTLED * level))
-        .map(|p| p.time);
     let size = (!curve.is_empty())
         .then(|| (curve.iter().map(|p| p.d.norm_squared()).sum::<f64>() / curve.len() as f64).sqrt());
     let line = |item: &str, quantity: &str, unit| {
@@ -170,15 +211,10 @@ fn claims(curve: &[Point]) -> Vec<Line> {
         .value(converged)
         .bound(Bound::between(0.0, CONVERGED_BY))
         .note("Table 2's own errors, 1.2e-6 m/s2 together, are 12 % of the 1e-5 m/s2 that Fig. 4 names"),
-        line(
-            "the network converges after nearly 350 s",
-            "first time with the RMS error within twice its later median",
-            "s",
-        )
-        .printed(CONVERGED_AT)
-        .value(settled)
-        .bound(Bound::between(0.0, CONVERGED_BY))
-        .note("a convergence that asks for no level"),
+        line("the network converges after nearly 350 s", SETTLING, "s")
+            .printed(CONVERGED_AT)
+            .value(settled(curve))
+            .note(SETTLING_NOTE),
         line(
             "converged is within 10 % of the nominal value",
             "RMS error over true d at 350 s",
@@ -186,17 +222,20 @@ fn claims(curve: &[Point]) -> Vec<Line> {
         )
         .printed(CONVERGED_SHARE)
         .value(at)
-        .bound(share),
-        line(
-            "converged is within 10 % of the nominal value",
-            "median of RMS error over true d from 350 s to the end of the orbit",
-            "1",
-        )
-        .printed(CONVERGED_SHARE)
-        .value(usual)
-        .bound(share)
-        .note("whether it stays converged; the orbit's d changes in size"),
+        .note(SETTLING_NOTE),
+        line("converged is within 10 % of the nominal value", USUAL, "1")
+            .printed(CONVERGED_SHARE)
+            .value(usual)
+            .bound(share)
+            .note("whether it stays converged; the orbit's d changes in size"),
     ]
+}
+
+/// When the error first comes within [`SETTLED`] times its later median.
+fn settled(curve: &[Point]) -> Option<f64> {
+    let level = median(curve, CONVERGED_BY, |p| p.error.norm())?;
+    let first = curve.iter().find(|p| p.error.norm() <= SETTLED * level);
+    first.map(|p| p.time)
 }
 
 /// Median of a number over the epochs from a time on.

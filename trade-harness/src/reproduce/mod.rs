@@ -6,6 +6,7 @@
 //!
 //! Start reading at [`Line`], then `disturbance.rs`, the shortest chapter.
 
+mod beyond;
 mod disturbance;
 mod learning;
 mod line;
@@ -55,6 +56,7 @@ pub const CHAPTERS: &[Chapter] = &[
     disturbance::CHAPTER,
     learning::CHAPTER,
     nominal::CHAPTER,
+    beyond::CHAPTER,
     off_nominal::CHAPTER,
     neurons::CHAPTER,
 ];
@@ -223,5 +225,20 @@ impl Notebook {
         .bound(Bound::exactly(0.0))
         .required(true);
         self.push(line);
+        let mut diverged: Vec<Line> = Vec::new();
+        for row in self.rows.iter().filter(|row| row.diverged > 0) {
+            let quantity = format!(
+                "{} in case {}: runs that diverged, of {}",
+                row.filter, row.case, row.runs
+            );
+            let line = Line::new("", &row.scenario, &quantity, "1").value(Some(row.diverged as f64));
+            diverged
+                .push(line.note("by the filter's own word (NIS beyond its limit) or by its distance from the truth"));
+        }
+        if diverged.is_empty() {
+            let line = Line::new("", "all studies", "runs that diverged, over all filters", "1");
+            diverged.push(line.value(Some(0.0)));
+        }
+        diverged.into_iter().for_each(|line| self.push(line));
     }
 }

@@ -53,11 +53,11 @@ fn requests() -> Vec<Request> {
         let request = Request::new(&FORMATION, &format!("neurons_{neurons}{kind}"), &[FILTER]).with_j2_alone();
         Request {
             one_run_in: ONE_RUN_IN,
-            ..request.set(NAV, "rbfnn_aekf.neurons", &neurons.to_string()).set(
-                NAV,
-                "rbfnn_aekf.learning_rate",
-                &format!("{rate:?}"),
-            )
+            ..request
+                .set(NAV, "rbfnn_aekf.neurons", &neurons.to_string())
+                .set(NAV, "rbfnn_aekf.learning_rate", &format!("{rate:?}"))
+                // The paper has no limit, and one neuron is beyond ours.
+                .set(NAV, "rbfnn_aekf.gain_limit", "1")
         }
     };
     sweep().enumerate().map(request).collect()

@@ -1,6 +1,6 @@
-//! Sec. IV.C: the filters against each other under their nominal tuning (Table 3), with the baselines it leaves out.
+//! Sec. IV.C: the filters against each other under their nominal tuning (Table 3), with those of `beyond` beside them.
 
-use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request, SHARE};
+use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request, SHARE, beyond};
 use crate::HarnessError;
 use crate::scenarios::FORMATION;
 
@@ -42,11 +42,12 @@ pub(super) const TABLE_3: [Row; 4] = [
     },
 ];
 
-/// The same Kalman filter with a plain Clohessy-Wiltshire model: constant process noise, and an acceleration state.
-const BASELINES: [&str; 2] = ["snc", "fixed_q"];
-
 pub(super) fn request() -> Request {
-    let filters: Vec<_> = TABLE_3.iter().map(|row| row.filter).chain(BASELINES).collect();
+    let filters: Vec<_> = TABLE_3
+        .iter()
+        .map(|row| row.filter)
+        .chain(beyond::baselines())
+        .collect();
     Request::new(&FORMATION, "nominal", &filters)
 }
 
@@ -63,11 +64,8 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
         lines.push(held(position, row.position));
         lines.push(held(velocity, row.velocity));
     }
-    for filter in BASELINES {
-        lines.extend(errors(notebook, &request, "beside Table 3", filter).map(|l| l.note("the paper leaves it out")));
-    }
-    for filter in request.filters.iter() {
-        lines.extend(consistency(notebook, &request, "beside Table 3", filter));
+    for row in &TABLE_3 {
+        lines.extend(consistency(notebook, &request, "beside Table 3", row.filter));
     }
     let best = |filters: &[&str], column: &str| {
         let of = |filter: &&str| notebook.number(&request, filter, column);
@@ -89,17 +87,6 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
         worst(&["observer"], "vel_rmse_m_s"),
         best(&["rbfnn_aekf", "rbfnn_ekf", "ekf_j2"], "vel_rmse_m_s"),
     ));
-    let over_baseline = Option::zip(worst(&["rbfnn_aekf"], "pos_rmse_m"), best(&["snc"], "pos_rmse_m"));
-    lines.push(
-        Line::new(
-            NETWORK_PAPER,
-            "beside Table 3, snc",
-            "pos_rmse_m, rbfnn_aekf over snc",
-            "1",
-        )
-        .value(over_baseline.map(|(network, plain)| network / plain))
-        .note("above 1: the same Kalman filter without network and with a constant Q of its own is the better one"),
-    );
     lines.into_iter().for_each(|line| notebook.push(line));
     Ok(())
 }
@@ -113,7 +100,7 @@ fn held(line: Line, printed: f64) -> Line {
 /// A claim that the first number is the smaller one.
 fn compared(claim: &str, quantity: &str, first: Option<f64>, second: Option<f64>) -> Line {
     Line::new(NETWORK_PAPER, &format!("Sec. IV.C: {claim}"), quantity, "1")
-        .value(Option::zip(first, second).map(|(a, b)| a / b))
+        .value(beyond::ratio(first, second))
         .bound(Bound::between(0.0, 1.0))
 }
 

@@ -16,13 +16,17 @@ use crate::tuning::study::{Options, Searched, Tuning};
 /// Text of the `case` column.
 const CASE: &str = "nominal";
 
+/// Presets that no search of numbers finds: the other reading of a law.
+const OTHER_READINGS: [&str; 1] = ["rbfnn_aekf@repaired"];
+
 /// Filters of fmu-nav to tune: those asked for, else every one.
 fn choices(args: &TuneArgs, cast: &Cast) -> Vec<FilterChoice> {
     if !args.study.filters.is_empty() {
         return args.study.filters.iter().filter_map(|f| f.0.clone()).collect();
     }
     let items = cast.models.nav.iter().flat_map(|nav| nav.fmu.description().filters());
-    items.filter_map(|item| item.name.parse().ok()).collect()
+    let names = items.map(|item| item.name.as_str()).chain(OTHER_READINGS);
+    names.filter_map(|name| name.parse().ok()).collect()
 }
 
 /// Every `--range` names a filter of the study, and none a variable twice.
