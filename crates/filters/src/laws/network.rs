@@ -108,7 +108,7 @@ const fn real(start: Option<f64>, unit: &'static str, bound: Bound) -> Kind {
 /// A normalised radial-basis network with six inputs and three outputs.
 ///
 /// `d(x) = W^T Phi(x)`, Eq. (6), with `Phi_i = exp(-shape |u - c_i|^2)` over its sum, Eqs. (3) and (4), and u the scaled
-/// input. Nothing is allocated after [`Network::new`].
+/// input. Nothing is allocated once it is made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Network {
     shape: f64,
