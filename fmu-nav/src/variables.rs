@@ -508,47 +508,42 @@ fn outputs(t: &mut Builder) {
         .output()
         .about("states with a covariance: relative position and velocity, and acceleration where it is estimated")
         .get(|m| m.read(|n| n.dimension() as i32));
-    let names = [
-        "est.r_tc_n",
-        "est.v_tc_n",
-        "est.a_t_n",
-        "est.r_c_n",
-        "est.v_c_n",
-        "est.b_c_bc",
+    let inertial: [(&str, &str); 6] = [
+        ("est.r_tc_n", "target relative to chaser, position, axes N"),
+        ("est.v_tc_n", "target relative to chaser, velocity, axes N"),
+        ("est.a_t_n", "unmodelled acceleration of the target, axes N"),
+        ("est.r_c_n", "chaser position (consider state), axes N"),
+        ("est.v_c_n", "chaser velocity (consider state), axes N"),
+        ("est.b_c_bc", "accelerometer bias, chaser body axes"),
     ];
-    let about = [
-        "target relative to chaser, position, axes N",
-        "target relative to chaser, velocity, axes N",
-        "unmodelled acceleration of the target, axes N",
-        "chaser position (consider state), axes N",
-        "chaser velocity (consider state), axes N",
-        "accelerometer bias, chaser body axes",
+    let lvlh: [(&str, &str); 3] = [
+        (
+            "est.rho_lvlh",
+            "chaser relative to target, position, LVLH of the target",
+        ),
+        (
+            "est.rho_dot_lvlh",
+            "chaser relative to target, velocity, LVLH of the target",
+        ),
+        (
+            "est.d_lvlh",
+            "acceleration that Clohessy-Wiltshire leaves out, LVLH of the target",
+        ),
     ];
-    for (block, name) in names.into_iter().enumerate() {
-        t.real(name)
-            .output()
-            .discrete()
-            .unit(STATE_UNITS[block])
-            .about_by(move |i| format!("{}, {}", about[block], AXES[i]))
-            .vector(3, move |m, i| {
-                m.read(|n| of(n, Measures::RangeAndBearing, n.estimate().x[3 * block + i]))
-            });
-    }
-    let names = ["est.rho_lvlh", "est.rho_dot_lvlh", "est.d_lvlh"];
-    let about = [
-        "chaser relative to target, position, LVLH of the target",
-        "chaser relative to target, velocity, LVLH of the target",
-        "acceleration that Clohessy-Wiltshire leaves out, LVLH of the target",
-    ];
-    for (block, name) in names.into_iter().enumerate() {
-        t.real(name)
-            .output()
-            .discrete()
-            .unit(STATE_UNITS[block])
-            .about_by(move |i| format!("{}, {}", about[block], AXES[i]))
-            .vector(3, move |m, i| {
-                m.read(|n| of(n, Measures::RelativeState, n.estimate().x[3 * block + i]))
-            });
+    for (measures, parts) in [
+        (Measures::RangeAndBearing, inertial.as_slice()),
+        (Measures::RelativeState, lvlh.as_slice()),
+    ] {
+        for (block, &(name, about)) in parts.iter().enumerate() {
+            t.real(name)
+                .output()
+                .discrete()
+                .unit(STATE_UNITS[block])
+                .about_by(move |i| format!("{about}, {}", AXES[i]))
+                .vector(3, move |m, i| {
+                    m.read(|n| of(n, measures, n.estimate().x[3 * block + i]))
+                });
+        }
     }
     t.boolean("est.acceleration_valid")
         .output()

@@ -70,7 +70,7 @@ pub(crate) struct Binary {
     pub(crate) alive: AtomicUsize,
     /// Set when an instance ended in a way that makes unloading unsafe.
     pub(crate) keep_loaded: AtomicBool,
-    library: ManuallyDrop<Library>,
+    loaded: ManuallyDrop<Library>,
     // Dropped after the library: an open library cannot be deleted everywhere.
     _folder: TempDir,
 }
@@ -79,7 +79,7 @@ impl Drop for Binary {
     fn drop(&mut self) {
         if !self.keep_loaded.load(Ordering::Relaxed) {
             // SAFETY: the field is not used again, and no instance is left that could call into the library.
-            unsafe { ManuallyDrop::drop(&mut self.library) };
+            unsafe { ManuallyDrop::drop(&mut self.loaded) };
         }
     }
 }
@@ -109,7 +109,7 @@ impl Binary {
             reason: loader_text(&e),
         })?;
         let symbols = Symbols {
-            library: &library,
+            loaded: &library,
             path,
             entry: &entry,
         };
@@ -121,7 +121,7 @@ impl Binary {
             resources: file_uri(&folder.path().join("resources")),
             alive: AtomicUsize::new(0),
             keep_loaded: AtomicBool::new(false),
-            library: ManuallyDrop::new(library),
+            loaded: ManuallyDrop::new(library),
             _folder: folder,
         })
     }
@@ -156,7 +156,7 @@ fn loader_text(error: &libloading::Error) -> String {
 
 /// Look-up in one library, with what messages need to say.
 struct Symbols<'a> {
-    library: &'a Library,
+    loaded: &'a Library,
     path: &'a Path,
     entry: &'a str,
 }
@@ -165,7 +165,7 @@ impl Symbols<'_> {
     /// The function `name`.
     fn get<T: Copy>(&self, name: &str) -> Result<T, ImportError> {
         // SAFETY: `T` is the type that the standard gives to this name; `fmi2GetVersion` guards against other versions.
-        unsafe { self.library.get::<T>(name) }
+        unsafe { self.loaded.get::<T>(name) }
             .map(|symbol| *symbol)
             .map_err(|_| ImportError::MissingSymbol {
                 path: self.path.to_owned(),

@@ -187,7 +187,7 @@ fn a_binary_for_another_platform_is_not_enough() {
         "other.fmu",
         &[
             ("modelDescription.xml", xml.as_bytes()),
-            ("binaries/amiga68k/tank.library", b"x"),
+            ("binaries/amiga68k/tank.module", b"x"),
             ("binaries/os2/tank.dll", b"x"),
         ],
     );

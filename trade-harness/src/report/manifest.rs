@@ -8,6 +8,7 @@ use std::time::{Duration, SystemTime};
 use cosim::Scheme;
 use serde::Serialize;
 
+use super::json_bytes;
 use crate::HarnessError;
 use crate::models::{Model, Models, Participant};
 use crate::output::OutputFolder;
@@ -193,9 +194,7 @@ impl Manifest {
     /// # Errors
     /// [`HarnessError::Json`].
     pub fn render(&self) -> Result<Vec<u8>, HarnessError> {
-        let mut bytes = serde_json::to_vec_pretty(self)?;
-        bytes.push(b'\n');
-        Ok(bytes)
+        json_bytes(self)
     }
 }
 

@@ -67,6 +67,13 @@ pub(crate) fn finished(writer: csv::Writer<Vec<u8>>) -> Result<Vec<u8>, HarnessE
         .map_err(|e| HarnessError::Csv(e.into_error().into()))
 }
 
+/// A JSON file that people can read, with a final newline.
+pub(crate) fn json_bytes(value: &impl Serialize) -> Result<Vec<u8>, HarnessError> {
+    let mut bytes = serde_json::to_vec_pretty(value)?;
+    bytes.push(b'\n');
+    Ok(bytes)
+}
+
 /// Shortest text that reads back as the same number; empty for what is absent or no number.
 pub(crate) fn cell(value: Option<f64>) -> String {
     value

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::HarnessError;
 use crate::models::PAPER;
+use crate::report::json_bytes;
 
 /// The file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -94,9 +95,7 @@ impl TunedFile {
     /// # Errors
     /// [`HarnessError::Json`].
     pub fn render(&self) -> Result<Vec<u8>, HarnessError> {
-        let mut bytes = serde_json::to_vec_pretty(self)?;
-        bytes.push(b'\n');
-        Ok(bytes)
+        json_bytes(self)
     }
 }
 

@@ -56,7 +56,7 @@ impl Workshop {
 
     /// Compiles `tests/common/tank.c` with the given macros; `None` without a C compiler.
     pub fn compile(&self, defines: &[&str]) -> Option<Vec<u8>> {
-        let output = self.path("tank.library");
+        let output = self.path("tank.module");
         let source = self.path("tank.c");
         std::fs::write(&source, include_str!("tank.c")).unwrap();
         let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
