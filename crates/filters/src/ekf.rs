@@ -207,22 +207,29 @@ impl NotSpd {
     }
 }
 
-/// Normalised innovation squared: innovation^T S^-1 innovation.
-///
-/// # Errors
-/// [`NotSpd`] when S cannot be factored.
-pub fn normalised<const M: usize>(s: &SMatrix<f64, M, M>, innovation: &SVector<f64, M>) -> Result<f64, NotSpd> {
-    let l = spd::cholesky(s).ok_or(NotSpd {
-        min_diagonal: s.diagonal().min(),
-    })?;
-    Ok(spd::forward_substitution(&l, innovation).norm_squared())
+/// The innovation covariance of an update.
+#[derive(Clone, Debug)]
+pub struct Innovated<const M: usize> {
+    /// S, M x M.
+    pub s: SMatrix<f64, M, M>,
+    /// Its lower Cholesky factor.
+    l: SMatrix<f64, M, M>,
+}
+
+impl<const M: usize> Innovated<M> {
+    /// Normalised innovation squared of the first R rows: innovation^T S^-1 innovation, with their block of S.
+    pub fn normalised<const R: usize>(&self, innovation: &SVector<f64, R>) -> f64 {
+        // The leading block of a Cholesky factor is the factor of the leading block.
+        let l = SMatrix::<f64, R, R>::from_fn(|i, j| self.l[(i, j)]);
+        spd::forward_substitution(&l, innovation).norm_squared()
+    }
 }
 
 /// Measurement update, Eqs. (6) and (12): gain with the rows of the consider states zeroed, covariance in Joseph form,
 /// which stays valid for that gain.
 ///
 /// * `consider`: slots of the consider states.
-/// * returns: the innovation covariance S, M x M.
+/// * returns: the innovation covariance S and its factor.
 ///
 /// # Errors
 /// [`NotSpd`] when S cannot be factored; `est` is then unchanged.
@@ -230,7 +237,7 @@ pub fn update<const M: usize, const D: usize>(
     est: &mut Gaussian<D>,
     m: &Measurement<M, D>,
     consider: Range<usize>,
-) -> Result<SMatrix<f64, M, M>, NotSpd> {
+) -> Result<Innovated<M>, NotSpd> {
     let hp = m.h * est.p;
     let s = spd::symmetrised(&(hp * m.h.transpose())) + SMatrix::<f64, M, M>::from_diagonal(&m.r);
     let l = spd::cholesky(&s).ok_or(NotSpd {
@@ -245,7 +252,7 @@ pub fn update<const M: usize, const D: usize>(
     let left = est.p - k * hp;
     let k_r = SMatrix::<f64, D, M>::from_fn(|i, j| k[(i, j)] * m.r[j]);
     est.p = spd::symmetrised(&(left - (left * m.h.transpose() - k_r) * k.transpose()));
-    Ok(s)
+    Ok(Innovated { s, l })
 }
 
 /// LiDAR rows at the predicted state, Eqs. (7) to (11).
@@ -396,7 +403,7 @@ mod tests {
             innovation: SVector::<f64, 6>::from_fn(|_, _| normal(g)),
             r: SVector::<f64, 6>::from_fn(|i, _| 0.5 + i as f64),
         };
-        let s = update(&mut est, &m, idx::CONSIDER).unwrap();
+        let s = update(&mut est, &m, idx::CONSIDER).unwrap().s;
         let r = SMatrix::<f64, 6, 6>::from_diagonal(&m.r);
         let expected_s = m.h * before.p * m.h.transpose() + r;
         assert!((s - expected_s).amax() < 1e-10);

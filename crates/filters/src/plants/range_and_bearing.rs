@@ -165,11 +165,12 @@ impl Estimator for RangeAndBearing {
             });
         }
         let innovation = Vector3::new(measured.x / self.units.length, measured.y, measured.z) - predicted;
-        let s: Matrix3<f64> = if drives {
+        let (variance, nis) = if drives {
             let mut h = SMatrix::<f64, 3, N>::zeros();
             h.fixed_view_mut::<3, 9>(0, 0).copy_from(&rows);
             let r = self.r_lidar;
-            ekf::update(core, &Measurement { h, innovation, r }, idx::CONSIDER).map_err(|e| e.at(t_s))?
+            let found = ekf::update(core, &Measurement { h, innovation, r }, idx::CONSIDER).map_err(|e| e.at(t_s))?;
+            (found.s.diagonal(), found.normalised(&innovation))
         } else {
             let mut h = SMatrix::<f64, 6, N>::zeros();
             h.fixed_view_mut::<3, 9>(0, 0).copy_from(&rows);
@@ -180,17 +181,17 @@ impl Estimator for RangeAndBearing {
                 innovation: stack(&innovation, &bias_innovation),
                 r: stack(&self.r_lidar, &Vector3::repeat(self.r_accelerometer)),
             };
-            let s = ekf::update(core, &m, idx::CONSIDER).map_err(|e| e.at(t_s))?;
-            s.fixed_view::<3, 3>(0, 0).into_owned()
+            let found = ekf::update(core, &m, idx::CONSIDER).map_err(|e| e.at(t_s))?;
+            let variance = found.s.diagonal().fixed_rows::<3>(0).into_owned();
+            (variance, found.normalised(&innovation))
         };
-        let nis = ekf::normalised(&s, &innovation).map_err(|e| e.at(t_s))?;
         let si = Vector3::new(self.units.length, 1.0, 1.0);
         updated.h = rows_of(&rows);
         updated.innovation = innovation.fixed_resize(0.0);
         updated.correction = (core.x - prior).fixed_rows::<9>(0).into_owned();
         updated.seen = Some(Innovation {
             residual: innovation.component_mul(&si).fixed_resize(0.0),
-            variance: s.diagonal().component_mul(&si).component_mul(&si).fixed_resize(0.0),
+            variance: variance.component_mul(&si).component_mul(&si).fixed_resize(0.0),
             nis,
         });
         Ok(updated)

@@ -212,11 +212,11 @@ impl Estimator for RelativeState {
                 innovation: updated.innovation,
                 r: self.r,
             };
-            let s = ekf::update(core, &m, 0..0).map_err(|e| e.at(sample.time))?;
+            let found = ekf::update(core, &m, 0..0).map_err(|e| e.at(sample.time))?;
             updated.seen = Some(Innovation {
                 residual: updated.innovation,
-                variance: s.diagonal(),
-                nis: ekf::normalised(&s, &updated.innovation).map_err(|e| e.at(sample.time))?,
+                variance: found.s.diagonal(),
+                nis: found.normalised(&updated.innovation),
             });
         }
         updated.correction = core.x - prior;
