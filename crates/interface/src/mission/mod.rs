@@ -28,9 +28,10 @@ pub use environment::{
     Atmosphere, Body, Cr3bp, Drag, Environment, Gravity, Harmonics, Radiation, Rotation, Shadow, TwoBody, Zonal,
 };
 pub use error::{MissionError, Problem};
-pub use events::{Axes, Burn, First, Magnitude, Profile, Vent};
+pub use events::{Axes, Burn, Distribution, First, FirstTable, Magnitude, Profile, Vent, Which};
 pub use navigation::{
-    BelievedSensors, Frame, InitialSigma, Navigation, NavigationSection, P0, Scale, Told, Units, UnitsChoice,
+    BelievedSensors, Frame, InitialSigma, KnownAccelerometer, KnownCamera, KnownLidar, KnownMetrology, KnownRadio,
+    Navigation, NavigationSection, P0, Scale, Told, Units, UnitsChoice,
 };
 pub use schema::schema;
 pub use sensors::{Accelerometer, AccelerometerOutput, Camera, Faults, Lidar, Metrology, Radio, Sensors};
