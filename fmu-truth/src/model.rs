@@ -1,10 +1,14 @@
 //! The adapter: parameters and inputs as a master sets them on one side, a running [`Simulation`] on the other.
 
 use crate::variables;
+use astro::TargetOrbit;
 use fmi2_export::{Experiment, Log, Model, ModelError, ModelInfo, Table};
+use interface::Signals;
+use interface::mission::Embedded;
+use interface::signals::Seen;
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
-use truth::{Inputs, Params, Simulation, WORLDS};
+use truth::{Inputs, Params, Simulation};
 
 /// One slave.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -15,6 +19,8 @@ pub struct TruthModel {
     pub inputs: Inputs,
     /// The run, from initialization on.
     pub simulation: Option<Simulation>,
+    /// What the sensor outputs show.
+    pub signals: Signals,
 }
 
 impl TruthModel {
@@ -33,7 +39,10 @@ impl Model for TruthModel {
             description: "Simulated worlds of a chaser and its target, with the chaser's sensors",
             version: env!("CARGO_PKG_VERSION"),
             license: "MIT",
-            default_stop: WORLDS[0].duration,
+            default_stop: Embedded::scenarios()
+                .next()
+                .and_then(|entry| entry.mission().ok())
+                .map_or(1.0, |mission| mission.time.duration_s),
             default_step: 1.0,
             ..ModelInfo::default()
         })
@@ -49,19 +58,24 @@ impl Model for TruthModel {
             params: Params::default(),
             inputs: Inputs::default(),
             simulation: None,
+            signals: nothing(),
         }
     }
 
     fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError> {
         let simulation = Simulation::new(&self.params, experiment.start_time, &self.inputs)?;
         log.event(format_args!(
-            "world {}, seed {}, run {} starts at t = {} s with {} scheduled events",
-            self.params.scenario.entry().name,
+            "mission {}, seed {}, run {} starts at t = {} s with {} scheduled events",
+            simulation.mission(),
             self.params.study_seed,
             self.params.run,
             experiment.start_time,
-            simulation.timeline().events.len()
+            simulation.timeline().events().len()
         ));
+        for note in simulation.notes() {
+            log.event(format_args!("note: {note}"));
+        }
+        self.signals = shown(&simulation);
         self.simulation = Some(simulation);
         Ok(())
     }
@@ -69,7 +83,50 @@ impl Model for TruthModel {
     fn do_step(&mut self, t: f64, h: f64, _log: &mut Log<'_>) -> Result<(), ModelError> {
         if let Some(simulation) = &mut self.simulation {
             simulation.advance_to(t + h, &self.inputs)?;
+            self.signals = shown(simulation);
         }
         Ok(())
+    }
+}
+
+/// What the outputs show of no sensor.
+fn nothing() -> Signals {
+    Signals {
+        lidar: Seen::default(),
+        camera: Seen::default(),
+        radio: Seen::default(),
+        metrology: Seen::default(),
+        accelerometer_valid: false,
+        dcm_bc_n: [0.0; 9],
+        ..Signals::default()
+    }
+}
+
+/// What the outputs show of a run.
+fn shown(simulation: &Simulation) -> Signals {
+    let sample = simulation.sample();
+    let seen = |due, valid| Seen { due, valid };
+    let (lidar, camera, radio, metrology) = (&sample.lidar, &sample.camera, &sample.radio, &sample.metrology);
+    let mut metrology_z = [0.0; 6];
+    metrology_z[..3].copy_from_slice(metrology.rho_lvlh.as_slice());
+    metrology_z[3..].copy_from_slice(metrology.rho_dot_lvlh.as_slice());
+    let orbit = |o: &TargetOrbit| [o.r, o.r_dot, o.h, o.inclination, o.argument_of_latitude];
+    Signals {
+        sample_time: sample.time,
+        sample_count: i32::try_from(sample.count).unwrap_or(i32::MAX),
+        lidar: seen(lidar.due, lidar.valid),
+        lidar_z: [lidar.range, lidar.azimuth, lidar.elevation],
+        camera: seen(camera.due, camera.valid),
+        camera_z: [camera.azimuth, camera.elevation],
+        radio: seen(radio.due, radio.valid),
+        radio_z: [radio.range, radio.range_rate],
+        metrology: seen(metrology.due, metrology.valid),
+        metrology_z,
+        target_orbit: sample.target_orbit.as_ref().map_or([0.0; 5], orbit),
+        accelerometer_valid: sample.accelerometer.valid,
+        accelerometer_mean: sample.accelerometer.mean,
+        alpha_c_bc: sample.accelerometer.alpha_c_bc.into(),
+        dcm_bc_n: std::array::from_fn(|i| sample.dcm_bc_n[(i / 3, i % 3)]),
+        nav_init: std::array::from_fn(|i| simulation.initial_estimate()[i]),
     }
 }

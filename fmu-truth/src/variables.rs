@@ -3,48 +3,52 @@
 //! Names, units and meanings that outside programs rely on are fixed; more may be added.
 
 use crate::model::TruthModel;
-use astro::TargetOrbit;
 use fmi2_export::{Table, TableBuilder};
-use truth::{Bound, CHOICES, Choice, LidarSample, Moment, PARAMETERS, Parameter, Params, Scenario, WORLDS};
+use interface::Bound;
+use interface::mission::Embedded;
+use interface::ports::{Port, Role, Shape, of};
+use interface::signals::{Slot, slots};
+use truth::{Forces, Moment, PARAMETERS, Parameter};
 
 type Builder = TableBuilder<TruthModel>;
 
 /// The whole table.
 pub fn table() -> Table<TruthModel> {
     let mut t = Builder::new();
-    t.enumeration_type(
-        "Scenario",
-        "world that is simulated",
-        WORLDS.iter().map(|world| (world.name, world.about)),
-    );
-    for choice in CHOICES {
-        t.enumeration_type(choice.type_name, choice.about, choice.items.iter().copied());
-    }
+    t.enumeration_type("Scenario", "mission that comes with the FMU", scenarios());
+    t.enumeration_type("Forces", FORCES, Forces::ITEMS.iter().copied());
     study(&mut t);
-    for choice in CHOICES {
-        choice_row(&mut t, choice);
-    }
-    for parameter in PARAMETERS {
-        parameter_row(&mut t, parameter);
+    for (row, parameter) in PARAMETERS.iter().enumerate() {
+        parameter_row(&mut t, row, parameter);
     }
     inputs(&mut t);
-    sensors(&mut t);
-    metrology(&mut t);
-    initial_estimate(&mut t);
-    truth(&mut t);
+    for (port, slot) in slots() {
+        sensor_row(&mut t, port, slot);
+    }
+    for port in of(Role::Truth) {
+        truth_row(&mut t, port);
+    }
     t.build()
+}
+
+const FORCES: &str = "what acts on both vehicles in the scenario formation";
+
+/// Names and meanings of the scenarios.
+fn scenarios() -> impl Iterator<Item = (&'static str, String)> {
+    Embedded::scenarios().map(|entry| (entry.name, entry.mission().map(|m| m.about).unwrap_or_default()))
 }
 
 fn study(t: &mut Builder) {
     t.enumeration("scenario", "Scenario")
         .parameter()
         .start(1)
-        .about("which world is simulated")
-        .rw(
-            |m| m.params.scenario.into(),
-            // Range-checked before it gets here.
-            |m, v| m.params.scenario = Scenario::try_from(v).unwrap_or_default(),
-        );
+        .about("which of the missions that come with the FMU is simulated")
+        .rw(|m| m.params.scenario, |m, v| m.params.scenario = v);
+    t.string("mission_file")
+        .parameter()
+        .start("")
+        .about("path of a mission file, which then stands for the scenario; empty: none")
+        .rw(|m| m.params.mission_file.clone(), |m, v| m.params.mission_file = v);
     t.integer("study_seed")
         .parameter()
         .min(0)
@@ -60,258 +64,133 @@ fn study(t: &mut Builder) {
         .start(0)
         .about("run within the study; with the seed it selects every random stream")
         .rw(|m| m.params.run as i32, |m, v| m.params.run = v.unsigned_abs());
-}
-
-fn choice_row(t: &mut Builder, choice: &'static Choice) {
-    t.enumeration(choice.name, choice.type_name)
+    t.boolean("guidance.burn_enabled")
+        .parameter()
+        .start(true)
+        .about("whether the mission's own burns of the chaser act, also in finding the start from the end")
+        .rw(|m| m.params.burn_enabled, |m, v| m.params.burn_enabled = v);
+    t.enumeration("formation.forces", "Forces")
         .parameter()
         .start(1)
-        .about(choice.about)
-        .rw(|m| (choice.get)(&m.params), |m, v| (choice.set)(&mut m.params, v));
+        .about(FORCES)
+        .rw(
+            |m| m.params.formation_forces as i32 + 1,
+            |m, v| m.params.formation_forces = Forces::from_ordinal(v),
+        );
 }
 
-fn parameter_row(t: &mut Builder, parameter: &'static Parameter) {
-    let row = t
-        .real(parameter.name)
-        .parameter()
-        .about(parameter.about)
-        .start(parameter.start);
-    let row = match parameter.unit {
-        "" => row.unit("1"),
-        "rad" => row.unit("rad").display_unit("deg"),
-        unit => row.unit(unit),
+fn parameter_row(t: &mut Builder, row: usize, parameter: &'static Parameter) {
+    let about = if parameter.own {
+        format!("{}; -1: the mission's own", parameter.about)
+    } else {
+        parameter.about.to_owned()
     };
-    let row = match parameter.bound {
-        Bound::Any => row,
-        Bound::AtLeast(least) => row.min(least),
-        Bound::Positive => row.positive(),
-        Bound::Probability => row.min(0.0).max(1.0),
-        Bound::OwnOrNonNegative => row.min(0.0).own_default(),
+    let variable = t.real(parameter.name).parameter().about(about);
+    let variable = match parameter.unit {
+        "" => variable.unit("1"),
+        "rad" => variable.unit("rad").display_unit("deg"),
+        unit => variable.unit(unit),
     };
-    let (values, values_mut) = (parameter.values, parameter.values_mut);
-    match values(&Params::default()).len() {
-        1 => row.rw(
-            move |m| values(&m.params)[0],
-            move |m, v| values_mut(&mut m.params)[0] = v,
+    let variable = match parameter.bound {
+        Bound::Any => variable,
+        Bound::AtLeast(least) => variable.min(least),
+        Bound::NonNegative => variable.min(0.0),
+        Bound::Positive => variable.positive(),
+        Bound::Fraction => variable.min(0.0).max(1.0),
+    };
+    let variable = if parameter.own {
+        variable.own_default()
+    } else {
+        variable.start(parameter.start)
+    };
+    match parameter.len {
+        1 => variable.rw(
+            move |m| m.params.value(row, 0),
+            move |m, v| m.params.set_value(row, 0, v),
         ),
-        n => row.vector_rw(
+        n => variable.vector_rw(
             n,
-            move |m, i| values(&m.params)[i],
-            move |m, i, v| values_mut(&mut m.params)[i] = v,
+            move |m, i| m.params.value(row, i),
+            move |m, i, v| m.params.set_value(row, i, v),
         ),
     }
 }
 
 fn inputs(t: &mut Builder) {
-    t.real("a_cmd_c_n")
-        .input()
-        .unit("m/s2")
-        .about("extra acceleration of the chaser, axes N; acts from the next grid point, the accelerometer feels it")
-        .vector_rw(3, |m, i| m.inputs.a_cmd_c_n[i], |m, i, v| m.inputs.a_cmd_c_n[i] = v);
-    t.real("a_dist_t_n")
-        .input()
-        .unit("m/s2")
-        .about("extra acceleration of the target, axes N; acts from the next grid point")
-        .vector_rw(3, |m, i| m.inputs.a_dist_t_n[i], |m, i, v| m.inputs.a_dist_t_n[i] = v);
+    for port in of(Role::Command) {
+        let place: fn(&mut truth::Inputs) -> &mut nalgebra::Vector3<f64> = match port.name {
+            "a_cmd_c_n" => |inputs| &mut inputs.a_cmd_c_n,
+            _ => |inputs| &mut inputs.a_dist_t_n,
+        };
+        t.real(port.name)
+            .input()
+            .unit(port.unit(0))
+            .about(port.about(0))
+            .vector_rw(
+                port.shape.len(),
+                move |m, i| place(&mut m.inputs.clone())[i],
+                move |m, i, v| place(&mut m.inputs)[i] = v,
+            );
+    }
 }
 
-/// The newest sample.
-fn sensors(t: &mut Builder) {
-    t.real("sample_time")
-        .output()
-        .discrete()
-        .unit("s")
-        .about("epoch of the newest sensor sample; 0 before the first")
-        .get(|m| m.read(|s| s.sample().time));
-    t.integer("sample_count")
-        .output()
-        .about("ordinal of the newest sensor sample; 0 before the first")
-        .get(|m| m.read(|s| i32::try_from(s.sample().count).unwrap_or(i32::MAX)));
-    t.boolean("lidar.valid")
-        .output()
-        .about("whether the LiDAR saw the target; if not, range and angles keep their last values")
-        .get(|m| m.read(|s| s.sample().lidar.valid));
-    t.real("lidar.range")
-        .output()
-        .discrete()
-        .unit("m")
-        .about("measured distance from chaser to target")
-        .get(|m| m.read(|s| s.sample().lidar.range));
-    type Angle = fn(&LidarSample) -> f64;
-    let angles: [(&str, &str, Angle); 2] = [
-        (
-            "lidar.azimuth",
-            "measured angle atan(rho_x / rho_z) in LiDAR axes",
-            |l| l.azimuth,
-        ),
-        (
-            "lidar.elevation",
-            "measured angle atan(rho_y / rho_z) in LiDAR axes",
-            |l| l.elevation,
-        ),
-    ];
-    for (name, about, angle) in angles {
-        t.real(name)
+/// What the newest sample holds; that of a sensor which is not on board is zero.
+fn sensor_row(t: &mut Builder, port: &'static Port, slot: Slot) {
+    match slot {
+        Slot::Integer(get, _) => t
+            .integer(port.name)
             .output()
-            .discrete()
-            .unit("rad")
-            .display_unit("deg")
-            .about(about)
-            .get(move |m| m.read(|s| angle(&s.sample().lidar)));
+            .about(port.about(0))
+            .get(move |m| get(&m.signals)),
+        Slot::Boolean(get, _) => t
+            .boolean(port.name)
+            .output()
+            .about(port.about(0))
+            .get(move |m| get(&m.signals)),
+        Slot::Real(get, _) => {
+            let mut row = t.real(port.name).output().discrete();
+            row = if port.unit(0) == "rad" {
+                row.unit("rad").display_unit("deg")
+            } else {
+                row.unit_by(|i| port.unit(i))
+            };
+            row = row.about_by(|i| port.about(i).to_owned());
+            if port.name == "nav_init.x" {
+                row = row.initially_from("a_dist_t_n");
+            }
+            match port.shape {
+                Shape::Scalar => row.get(move |m| get(&m.signals)[0]),
+                Shape::Vector(n) => row.vector(n, move |m, i| get(&m.signals)[i]),
+                Shape::Matrix(rows, columns) => {
+                    row.matrix(rows, columns, move |m, i, j| get(&m.signals)[columns * i + j])
+                }
+            }
+        }
     }
-    t.real("accelerometer.alpha_c_bc")
-        .output()
-        .discrete()
-        .unit("m/s2")
-        .about("accelerometer reading, chaser body axes: the acceleration just after the epoch")
-        .vector(3, |m, i| m.read(|s| s.sample().alpha_c_bc[i]));
-    t.real("dcm_bc_n")
-        .output()
-        .discrete()
-        .unit("1")
-        .about("attitude of the chaser at the epoch: direction cosine matrix from axes N to chaser body axes")
-        .matrix(3, 3, |m, i, j| m.read(|s| s.sample().dcm_bc_n[(i, j)]));
-}
-
-/// What the newest sample holds in worlds with metrology; zero in the others.
-fn metrology(t: &mut Builder) {
-    t.boolean("metrology.valid")
-        .output()
-        .about("whether the metrology saw the target; if not, its measurement keeps the last values")
-        .get(|m| m.read(|s| s.sample().metrology.valid));
-    t.real("metrology.rho_lvlh")
-        .output()
-        .discrete()
-        .unit("m")
-        .about("measured position of the chaser relative to the target, LVLH axes of the target; formation")
-        .vector(3, |m, i| m.read(|s| s.sample().metrology.rho_lvlh[i]));
-    t.real("metrology.rho_dot_lvlh")
-        .output()
-        .discrete()
-        .unit("m/s")
-        .about("measured rate of that position as seen in the turning LVLH axes; formation")
-        .vector(3, |m, i| m.read(|s| s.sample().metrology.rho_dot_lvlh[i]));
-    type Element = fn(&TargetOrbit) -> f64;
-    let elements: [(&str, &str, &str, Element); 5] = [
-        ("target_orbit.r", "m", "geocentric distance of the target", |o| o.r),
-        ("target_orbit.r_dot", "m/s", "rate of that distance", |o| o.r_dot),
-        (
-            "target_orbit.h",
-            "m2/s",
-            "angular momentum of the target per unit mass",
-            |o| o.h,
-        ),
-        (
-            "target_orbit.inclination",
-            "rad",
-            "inclination of the target's orbit",
-            |o| o.inclination,
-        ),
-        (
-            "target_orbit.argument_of_latitude",
-            "rad",
-            "angle from the ascending node to the target, in (-pi, pi]",
-            |o| o.argument_of_latitude,
-        ),
-    ];
-    for (name, unit, about, element) in elements {
-        let row = t.real(name).output().discrete().unit(unit).about(format!(
-            "{about}, at the epoch of the newest sample, before the first at the start; formation"
-        ));
-        let row = if unit == "rad" { row.display_unit("deg") } else { row };
-        row.get(move |m| m.read(|s| s.sample().target_orbit.as_ref().map_or(0.0, element)));
-    }
-}
-
-fn initial_estimate(t: &mut Builder) {
-    /// Unit and meaning of each group of three.
-    const PARTS: [(&str, &str); 6] = [
-        (
-            "m",
-            "position of the target relative to the chaser, axes N; formation: as metrology.rho_lvlh",
-        ),
-        (
-            "m/s",
-            "velocity of the target relative to the chaser, axes N; formation: as metrology.rho_dot_lvlh",
-        ),
-        ("m/s2", "unmodelled acceleration of the target, axes N; formation: 0"),
-        ("m", "position of the chaser, axes N; formation: 0"),
-        ("m/s", "velocity of the chaser, axes N; formation: 0"),
-        ("m/s2", "accelerometer bias, chaser body axes; formation: 0"),
-    ];
-    t.real("nav_init.x")
-        .output()
-        .discrete()
-        .unit_by(|i| PARTS[i / 3].0)
-        .about_by(|i| format!("initial estimate drawn around the truth: {}", PARTS[i / 3].1))
-        .initially_from("a_dist_t_n")
-        .vector(18, |m, i| m.read(|s| s.initial_estimate()[i]));
 }
 
 /// The true state at the communication point.
-fn truth(t: &mut Builder) {
-    type Part = fn(&Moment, usize) -> f64;
-    let parts: [(&str, &str, &str, Part); 9] = [
-        (
-            "truth.r_tc_n",
-            "m",
-            "true position of the target relative to the chaser, axes N",
-            |now, i| now.state.r_tc()[i],
-        ),
-        (
-            "truth.v_tc_n",
-            "m/s",
-            "true velocity of the target relative to the chaser, axes N",
-            |now, i| now.state.v_tc()[i],
-        ),
-        (
-            "truth.a_t_n",
-            "m/s2",
-            "true acceleration of the target by vents, target_burn and a_dist_t_n, axes N, just after this time",
-            |now, i| now.a_t_n[i],
-        ),
-        ("truth.r_c_n", "m", "true position of the chaser, axes N", |now, i| {
-            now.state.r_c[i]
-        }),
-        ("truth.v_c_n", "m/s", "true velocity of the chaser, axes N", |now, i| {
-            now.state.v_c[i]
-        }),
-        (
-            "truth.b_c_bc",
-            "m/s2",
-            "true accelerometer bias, chaser body axes",
-            |now, i| now.b_c_bc[i],
-        ),
-        (
-            "truth.rho_lvlh",
-            "m",
-            "true position of the chaser relative to the target, LVLH axes of the target; formation",
-            |now, i| now.relative.map_or(0.0, |r| r.rho_lvlh[i]),
-        ),
-        (
-            "truth.rho_dot_lvlh",
-            "m/s",
-            "true rate of that position as seen in the turning LVLH axes; formation",
-            |now, i| now.relative.map_or(0.0, |r| r.rho_dot_lvlh[i]),
-        ),
-        (
-            "truth.d_lvlh",
-            "m/s2",
-            "true relative acceleration less that of Clohessy-Wiltshire motion, LVLH axes, just after this time; formation",
-            |now, i| now.relative.map_or(0.0, |r| r.d_lvlh[i]),
-        ),
-    ];
-    for (name, unit, about, part) in parts {
-        let mut row = t.real(name).output().unit(unit).about(about);
-        // Accelerations as such, and through the turning of the target's axes.
-        if matches!(name, "truth.a_t_n" | "truth.rho_dot_lvlh" | "truth.d_lvlh") {
-            row = row.initially_from("a_dist_t_n");
-        }
-        if name == "truth.d_lvlh" {
-            row = row.initially_from("a_cmd_c_n");
-        }
-        row.vector(3, move |m, i| m.read(|s| part(s.now(), i)));
+fn truth_row(t: &mut Builder, port: &'static Port) {
+    let part: fn(&Moment, usize) -> f64 = match port.name {
+        "truth.r_tc_n" => |now, i| now.state.r_tc()[i],
+        "truth.v_tc_n" => |now, i| now.state.v_tc()[i],
+        "truth.a_t_n" => |now, i| now.a_t_n[i],
+        "truth.r_c_n" => |now, i| now.state.r_c[i],
+        "truth.v_c_n" => |now, i| now.state.v_c[i],
+        "truth.b_c_bc" => |now, i| now.b_c_bc[i],
+        "truth.rho_lvlh" => |now, i| now.relative.map_or(0.0, |r| r.rho_lvlh[i]),
+        "truth.rho_dot_lvlh" => |now, i| now.relative.map_or(0.0, |r| r.rho_dot_lvlh[i]),
+        _ => |now, i| now.relative.map_or(0.0, |r| r.d_lvlh[i]),
+    };
+    let mut row = t.real(port.name).output().unit(port.unit(0)).about(port.about(0));
+    // Accelerations as such, and through the turning of the target's axes.
+    if matches!(port.name, "truth.a_t_n" | "truth.rho_dot_lvlh" | "truth.d_lvlh") {
+        row = row.initially_from("a_dist_t_n");
     }
+    if port.name == "truth.d_lvlh" {
+        row = row.initially_from("a_cmd_c_n");
+    }
+    row.vector(port.shape.len(), move |m, i| m.read(|s| part(s.now(), i)));
 }
 
 #[cfg(test)]
@@ -335,8 +214,8 @@ mod tests {
     fn run(scenario: i32) -> TruthModel {
         let mut model = TruthModel::blank();
         TruthModel::table().apply_start(&mut model);
-        model.params.scenario = Scenario::try_from(scenario).unwrap();
-        model.params.sample_period = 2.0;
+        model.params.scenario = scenario;
+        assert!(model.params.set("sample_period", 2.0));
         let experiment = Experiment {
             start_time: 10.0,
             stop_time: None,
@@ -358,7 +237,7 @@ mod tests {
             ("lidar.range", sample.lidar.range),
             ("lidar.azimuth", sample.lidar.azimuth),
             ("lidar.elevation", sample.lidar.elevation),
-            ("accelerometer.alpha_c_bc[2]", sample.alpha_c_bc.y),
+            ("accelerometer.alpha_c_bc[2]", sample.accelerometer.alpha_c_bc.y),
             ("dcm_bc_n[1,3]", sample.dcm_bc_n[(0, 2)]),
             ("nav_init.x[1]", simulation.initial_estimate()[0]),
             ("nav_init.x[18]", simulation.initial_estimate()[17]),
@@ -371,6 +250,8 @@ mod tests {
             ("metrology.rho_lvlh[2]", 0.0),
             ("target_orbit.r", 0.0),
             ("truth.d_lvlh[1]", 0.0),
+            ("camera.azimuth", 0.0),
+            ("radio.range", 0.0),
         ];
         for (name, value) in expected {
             assert_eq!(real(&model, name).to_bits(), value.to_bits(), "{name}");

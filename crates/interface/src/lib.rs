@@ -5,8 +5,11 @@
 
 pub mod bound;
 pub mod mission;
+pub mod ports;
+pub mod signals;
 pub mod status;
 
 pub use bound::Bound;
 pub use mission::{Mission, MissionError, Navigation};
+pub use signals::Signals;
 pub use status::Status;

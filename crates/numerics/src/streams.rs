@@ -41,11 +41,28 @@ pub enum Source {
     Variation = 13,
     /// Shift of the points that a search for the best tuning tries.
     Search = 14,
+    /// Magnitudes of the vents of a named kind.
+    VentSize = 15,
+    /// Directions of the vents of a named kind.
+    VentDirection = 16,
+    /// Camera angle noise.
+    Camera = 17,
+    /// Radio range and range-rate noise.
+    Radio = 18,
 }
 
 /// Generator for one cause of randomness in one run; equal arguments give equal streams.
 pub fn stream(study_seed: u64, run: u64, source: Source) -> Generator {
     Generator::seed_from_u64(mix(study_seed ^ mix(run ^ mix(source as u64))))
+}
+
+/// Generator for one cause of randomness of one named entry; equal arguments give equal streams, another name another.
+pub fn named_stream(study_seed: u64, run: u64, source: Source, name: &str) -> Generator {
+    // FNV-1a, so that a stream is the same on every platform and in every release.
+    let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    Generator::seed_from_u64(mix(study_seed ^ mix(run ^ mix(source as u64 ^ mix(hash)))))
 }
 
 /// The splitmix64 finaliser: a bijection of 64-bit words that leaves no visible structure of its argument.
@@ -77,6 +94,15 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn names_select_streams_of_their_own() {
+        let first = |name| named_stream(1, 2, Source::VentSize, name).next_u64();
+        assert_eq!(first("co2"), first("co2"));
+        assert_ne!(first("co2"), first("co3"));
+        assert_ne!(first("co2"), named_stream(1, 2, Source::VentTiming, "co2").next_u64());
+        assert_ne!(first(""), stream(1, 2, Source::VentSize).next_u64());
     }
 
     #[test]

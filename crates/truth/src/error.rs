@@ -65,7 +65,16 @@ pub enum TruthError {
         /// End of the grid interval in which it happened, s.
         t: f64,
     },
-    /// A world's fixed orbit is no orbit.
+    /// The mission file cannot be used.
     #[error(transparent)]
-    Orbit(#[from] astro::AstroError),
+    Mission(#[from] interface::MissionError),
+    /// A mission without the orbit that its check asks for.
+    #[error("the mission gives no orbit from which a run could begin")]
+    NoOrbit,
+    /// A field of gravity that cannot be read.
+    #[error(transparent)]
+    Field(#[from] astro::FieldError),
+    /// An orbit or a date that makes no sense.
+    #[error(transparent)]
+    Astro(#[from] astro::AstroError),
 }

@@ -1,49 +1,19 @@
 //! The navigation's first estimate, drawn around the truth.
 
+use interface::mission::InitialSigma;
 use nalgebra::{SVector, Vector3};
-use numerics::{Generator, Source, stream};
+use numerics::{Source, stream};
 use sensors::{metrology, normal3};
 
-use crate::{Params, Relative, Vehicles};
+use crate::overrides::Run;
+use crate::{Relative, Vehicles};
 
-/// Standard deviations of the initial errors of one vehicle, per axis.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct InitialSigma {
-    /// m.
-    pub position: f64,
-    /// m/s.
-    pub velocity: f64,
-    /// Of the target's acceleration, m/s2.
-    pub acceleration: f64,
-    /// Of the accelerometer bias, m/s2.
-    pub bias: f64,
-}
-
-impl InitialSigma {
-    /// These values, but for those that the parameters set (a negative parameter leaves it to the scenario).
-    fn overridden_by(self, params: &Params) -> Self {
-        let choose = |set: f64, own: f64| if set < 0.0 { own } else { set };
-        Self {
-            position: choose(params.nav_init_sigma_position, self.position),
-            velocity: choose(params.nav_init_sigma_velocity, self.velocity),
-            acceleration: choose(params.nav_init_sigma_acceleration, self.acceleration),
-            bias: choose(params.nav_init_sigma_bias, self.bias),
-        }
-    }
-}
-
-/// Generator of the errors, and their standard deviations.
-fn errors(params: &Params, own: InitialSigma) -> (Generator, InitialSigma) {
-    let rng = stream(params.study_seed.into(), params.run.into(), Source::InitialError);
-    (rng, own.overridden_by(params))
-}
-
-/// Initial estimate in a world with metrology: rows 1 to 6 are a measurement of its own (rho, rho_dot, LVLH), the rest 0.
+/// Initial estimate of a filter in the LVLH frame: rows 1 to 6 are a measurement of their own (rho, rho_dot, LVLH), the rest 0.
 ///
 /// * `relative`: the truth at the start time.
-/// * `own`: the scenario's standard deviations.
-pub(crate) fn draw_measurement(params: &Params, own: InitialSigma, relative: &Relative) -> SVector<f64, 18> {
-    let (mut rng, sigma) = errors(params, own);
+/// * `sigma`: standard deviations of the errors.
+pub(crate) fn draw_measurement(run: &Run, sigma: &InitialSigma, relative: &Relative) -> SVector<f64, 18> {
+    let mut rng = stream(run.study_seed, run.run, Source::InitialError);
     let unit = metrology::measure(&normal3(&mut rng), &normal3(&mut rng));
     let truth = metrology::measure(&relative.rho_lvlh, &relative.rho_dot_lvlh);
     let measured = truth + unit.component_mul(&metrology::deviations(sigma.position, sigma.velocity));
@@ -55,17 +25,17 @@ pub(crate) fn draw_measurement(params: &Params, own: InitialSigma, relative: &Re
 /// Target and chaser are mistaken independently of each other, so the relative error is the difference of both errors.
 ///
 /// * `state`, `a_t_n`, `b_c_bc`: the truth at the start time.
-/// * `own`: the scenario's standard deviations.
+/// * `sigma`: standard deviations of the errors.
 ///
 /// Source: Mamich and Zanetti, Eqs. (35) and (37).
 pub(crate) fn draw_estimate(
-    params: &Params,
-    own: InitialSigma,
+    run: &Run,
+    sigma: &InitialSigma,
     state: &Vehicles,
     a_t_n: &Vector3<f64>,
     b_c_bc: &Vector3<f64>,
 ) -> SVector<f64, 18> {
-    let (mut rng, sigma) = errors(params, own);
+    let mut rng = stream(run.study_seed, run.run, Source::InitialError);
     let mut error = |sigma: f64| normal3(&mut rng) * sigma;
     let (r_t, v_t, a_t) = (error(sigma.position), error(sigma.velocity), error(sigma.acceleration));
     let (r_c, v_c, b_c) = (error(sigma.position), error(sigma.velocity), error(sigma.bias));
@@ -82,104 +52,4 @@ pub(crate) fn draw_estimate(
         x.fixed_rows_mut::<3>(3 * i).copy_from(part);
     }
     x
-}
-
-#[cfg(test)]
-#[allow(clippy::float_cmp)]
-mod tests {
-    use super::*;
-    use nalgebra::SMatrix;
-
-    const OWN: InitialSigma = InitialSigma {
-        position: 8.0,
-        velocity: 0.5,
-        acceleration: 2e-9,
-        bias: 3e-9,
-    };
-
-    fn errors(params: &Params) -> SVector<f64, 18> {
-        let state = Vehicles {
-            r_t: Vector3::zeros(),
-            v_t: Vector3::zeros(),
-            r_c: Vector3::zeros(),
-            v_c: Vector3::zeros(),
-        };
-        draw_estimate(params, OWN, &state, &Vector3::zeros(), &Vector3::zeros())
-    }
-
-    #[test]
-    fn errors_of_target_and_chaser_are_independent() {
-        let n = 4000;
-        let mut p = SMatrix::<f64, 18, 18>::zeros();
-        for run in 0..n {
-            let e = errors(&Params {
-                run,
-                ..Params::default()
-            });
-            p += e * e.transpose() / f64::from(n);
-        }
-        // By hand: x = (e_t - e_c, ..., e_c, ...) with equal variances.
-        let block = |i: usize, j: usize| match (i, j) {
-            (0, 0) => 2.0 * 64.0,
-            (1, 1) => 2.0 * 0.25,
-            (2, 2) => 4e-18,
-            (3, 3) => 64.0,
-            (4, 4) => 0.25,
-            (5, 5) => 9e-18,
-            (0, 3) | (3, 0) => -64.0,
-            (1, 4) | (4, 1) => -0.25,
-            _ => 0.0,
-        };
-        for i in 0..18 {
-            for j in 0..18 {
-                let expected = if i % 3 == j % 3 { block(i / 3, j / 3) } else { 0.0 };
-                // Sampling error of a covariance: sqrt((p_ii p_jj + p_ij^2) / n); 5 sigma for 324 entries.
-                let variances = block(i / 3, i / 3) * block(j / 3, j / 3);
-                let bound = 5.0 * ((variances + expected * expected) / f64::from(n)).sqrt();
-                assert!(
-                    (p[(i, j)] - expected).abs() < bound,
-                    "({i}, {j}): {} and {expected}",
-                    p[(i, j)]
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn parameters_override_the_scenario_one_by_one() {
-        let base = errors(&Params::default());
-        let changed = errors(&Params {
-            nav_init_sigma_velocity: 1.0,
-            nav_init_sigma_bias: 0.0,
-            ..Params::default()
-        });
-        let mut expected = base;
-        for i in [3, 4, 5, 12, 13, 14] {
-            expected[i] *= 2.0;
-        }
-        expected.fixed_rows_mut::<3>(15).fill(0.0);
-        assert!((changed - expected).amax() < 1e-15);
-    }
-
-    #[test]
-    fn estimate_stands_around_the_truth() {
-        let part = |x: f64| Vector3::new(x, 2.0 * x, 3.0 * x);
-        let state = Vehicles {
-            r_t: part(1.0),
-            v_t: part(10.0),
-            r_c: part(100.0),
-            v_c: part(1000.0),
-        };
-        let exact = Params {
-            nav_init_sigma_position: 0.0,
-            nav_init_sigma_velocity: 0.0,
-            nav_init_sigma_acceleration: 0.0,
-            nav_init_sigma_bias: 0.0,
-            ..Params::default()
-        };
-        let x = draw_estimate(&exact, OWN, &state, &part(7.0), &part(8.0));
-        let first_axis: Vec<f64> = x.iter().copied().step_by(3).collect();
-        assert_eq!(first_axis, [-99.0, -990.0, 7.0, 100.0, 1000.0, 8.0]);
-        assert!(x.iter().skip(2).step_by(3).zip(first_axis).all(|(z, x)| *z == 3.0 * x));
-    }
 }

@@ -1,28 +1,38 @@
 //! The simulated world: two vehicles, what pushes them, and what the chaser's sensors say of it.
 //!
-//! [`Simulation`] runs any entry of [`WORLDS`]; it owns the time grid, the inputs, the sensor samples with their faults and
-//! the random streams. A world is one file under `worlds/`: its forces, its events and its start. Filters, FMI and studies
-//! are told nothing of what lives here. Start reading at [`Simulation`], then `worlds/leo_venting.rs`.
+//! [`Simulation`] runs any mission (`interface::mission`): it owns the time grid, the inputs, the sensor samples and the random
+//! streams. The mission's numbers are data; the models are Rust, one file each with a registry line: `environment/` (gravity,
+//! third bodies, radiation, drag), `attitude/` (pointing laws), `disturbances/` (burns, vents and their profiles), `sampling/`
+//! (sensors and their faults). Filters, FMI and studies are told nothing of what lives here.
+//!
+//! ```
+//! use truth::{Inputs, Params, Simulation};
+//!
+//! let mut run = Simulation::new(&Params::default(), 0.0, &Inputs::default())?;
+//! run.advance_to(10.0, &Inputs::default())?;
+//! assert_eq!(run.sample().count, 10);
+//! # Ok::<(), truth::TruthError>(())
+//! ```
 
+mod attitude;
+mod disturbances;
+mod environment;
 mod error;
 mod initial;
-mod params;
+mod overrides;
 mod relative;
 mod sampling;
 mod simulation;
+mod start;
 mod timeline;
 mod vehicles;
-mod vents;
 mod world;
-mod worlds;
 
+pub use disturbances::profiles;
 pub use error::TruthError;
-pub use initial::InitialSigma;
-pub use params::{Bound, CHOICES, Choice, PARAMETERS, Parameter, Params};
+pub use overrides::{Forces, OWN, PARAMETERS, Parameter, Params};
 pub use relative::Relative;
-pub use sampling::{LidarSample, MetrologySample, SensorSample};
+pub use sampling::{AccelerometerSample, CameraSample, LidarSample, MetrologySample, RadioSample, SensorSample};
 pub use simulation::{Inputs, Moment, Simulation};
-pub use timeline::{Event, Push, Timeline};
+pub use timeline::{Event, Push, Side, Thrust, Timeline, Vector};
 pub use vehicles::Vehicles;
-pub use world::{Ambient, Instrument, Scenario, Start, Surroundings, WORLDS, World, WorldEntry};
-pub use worlds::formation::Forces;

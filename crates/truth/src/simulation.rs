@@ -1,15 +1,20 @@
 //! One run of a world: time grid, latched inputs, samples.
 
-use astro::{Lvlh, TargetOrbit};
+use astro::{ClohessyWiltshire, Lvlh, TargetOrbit};
+use interface::mission::{Frame, Mission};
 use nalgebra::{SVector, Vector3};
 use numerics::{Generator, Source, stream};
 use sensors::{accelerometer, metrology, normal3};
 use serde::{Deserialize, Serialize};
 
+use crate::disturbances::schedule;
 use crate::initial::{draw_estimate, draw_measurement};
-use crate::sampling::{Scene, Sensors, View};
-use crate::world::step;
-use crate::{Event, Instrument, Params, Push, Relative, SensorSample, Start, Timeline, TruthError, Vehicles, World};
+use crate::overrides::Run;
+use crate::sampling::{Scene, Sensors};
+use crate::start::start;
+use crate::timeline::Thrust;
+use crate::world::World;
+use crate::{Params, Push, Relative, SensorSample, Timeline, TruthError, Vehicles};
 
 /// A time this close to a grid point counts as on it, s.
 const SNAP: f64 = 1e-6;
@@ -28,10 +33,13 @@ pub struct Inputs {
 
 impl Inputs {
     fn push(&self) -> Push {
+        let along = |n: &Vector3<f64>| Thrust {
+            n: *n,
+            ..Thrust::default()
+        };
         Push {
-            chaser_n: self.a_cmd_c_n,
-            target_n: self.a_dist_t_n,
-            ..Push::default()
+            chaser: along(&self.a_cmd_c_n),
+            target: along(&self.a_dist_t_n),
         }
     }
 
@@ -58,7 +66,7 @@ pub struct Moment {
     pub a_t_n: Vector3<f64>,
     /// Accelerometer bias, chaser body axes, m/s2.
     pub b_c_bc: Vector3<f64>,
-    /// Motion in the axes of the target's orbit, in worlds with metrology.
+    /// Motion in the axes of the target's orbit, in missions with metrology.
     pub relative: Option<Relative>,
 }
 
@@ -79,6 +87,49 @@ struct Place {
     offset: f64,
 }
 
+/// The accelerometer's bias: a walk that decays.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Bias {
+    now: Vector3<f64>,
+    /// m/s2 per square root of a second.
+    sigma: f64,
+    time_constant: f64,
+    walk: Generator,
+}
+
+impl Bias {
+    fn new(run: &Run) -> Self {
+        let sensor = run.mission.sensors.accelerometer;
+        Self {
+            now: sensor.map_or_else(Vector3::zeros, |s| s.bias0_m_s2.into()),
+            sigma: sensor.map_or(0.0, |s| s.bias_sigma_m_s2),
+            time_constant: sensor.map_or(1.0, |s| s.bias_time_constant_s),
+            walk: stream(run.study_seed, run.run, Source::AccelerometerBias),
+        }
+    }
+
+    fn step(&mut self, dt: f64) {
+        let unit = normal3(&mut self.walk);
+        self.now = accelerometer::bias_step(&self.now, dt, self.time_constant, self.sigma, &unit);
+    }
+
+    /// Where it will be, but for its walk.
+    fn after(&self, dt: f64) -> Vector3<f64> {
+        accelerometer::bias_step(&self.now, dt, self.time_constant, 0.0, &Vector3::zeros())
+    }
+}
+
+/// Integral of the specific force in chaser body axes since the accelerometer's last sample.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+struct Felt {
+    /// Epoch of the last sample, s since the start of the run.
+    since: f64,
+    /// How far the integral has come, s likewise.
+    until: f64,
+    /// m/s.
+    impulse: Vector3<f64>,
+}
+
 /// One run of a world. It is all state: a clone goes on exactly as the original does.
 ///
 /// The world is integrated on a grid of fixed intervals counted from the start time. What pushes the vehicles is constant
@@ -87,14 +138,18 @@ struct Place {
 /// grid is answered by a trial step from the last grid point, which is then forgotten and draws nothing at random.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Simulation {
-    params: Params,
+    mission: String,
+    notes: Vec<String>,
+    world: World,
+    /// What the true relative acceleration is told less of, in missions with metrology.
+    reference: Option<ClohessyWiltshire>,
     start_time: f64,
     timeline: Timeline,
     /// Grid intervals completed; `state` and `bias` hold at their end.
     interval: u64,
     state: Vehicles,
-    bias: Vector3<f64>,
-    bias_walk: Generator,
+    bias: Bias,
+    felt: Felt,
     /// Inputs that act over the present interval, once it has been entered.
     latched: Option<Inputs>,
     sensors: Sensors,
@@ -106,53 +161,51 @@ pub struct Simulation {
 impl Simulation {
     /// A run at its start time, before its first sample.
     ///
-    /// * `start_time`: s; the scenario's clock, on which its events stand, starts here.
+    /// * `start_time`: s; the mission's clock, on which its events stand, starts here.
     /// * `inputs`: as set at the start time; they only show in [`Moment::a_t_n`] and in the initial estimate.
     ///
     /// # Errors
-    /// When a parameter is out of range, or the start time or an input is not finite.
+    /// When the mission cannot be read, a parameter is out of range, or the start time or an input is not finite.
     pub fn new(params: &Params, start_time: f64, inputs: &Inputs) -> Result<Self, TruthError> {
-        params.check()?;
+        let run = params.run()?;
         if !start_time.is_finite() {
             return Err(TruthError::StartTime { start_time });
         }
         inputs.check(start_time)?;
-        let world = params.scenario.entry().world;
-        let Start { state, mut timeline } = world.start(params)?;
-        if params.target_burn_duration > 0.0 {
-            timeline.events.push(Event {
-                start: params.target_burn_start,
-                duration: params.target_burn_duration,
-                push: Push {
-                    target_n: params.target_burn_a_t_n,
-                    ..Push::default()
-                },
-            });
-        }
-        let bias = Vector3::repeat(params.accelerometer_bias0);
+        let world = World::new(&run.mission)?;
+        let timeline = schedule(&run);
+        let state = start(&run.mission, &world, &timeline)?;
+        finite(&state, start_time)?;
+        let sensors = Sensors::new(&run);
+        let reference = reference(&run.mission, &world, &state, sensors.have_metrology());
+        let bias = Bias::new(&run);
         let begin = Instant {
             t: 0.0,
             state,
-            push: push_over(&timeline, 0, params.scenario.entry().grid, inputs),
-            b_c_bc: bias,
+            push: world.push_over(&timeline, 0) + inputs.push(),
+            b_c_bc: bias.now,
         };
-        let now = moment(params, start_time, &begin);
-        let sigma = world.initial_sigma(params);
+        let now = moment(&world, reference.as_ref(), start_time, &begin);
+        let sigma = run.mission.initial_sigma();
         let initial_estimate = match &now.relative {
-            None => draw_estimate(params, sigma, &state, &now.a_t_n, &bias),
-            Some(relative) => draw_measurement(params, sigma, relative),
+            Some(relative) if run.mission.navigation.frame == Frame::Lvlh => draw_measurement(&run, &sigma, relative),
+            _ => draw_estimate(&run, &sigma, &state, &now.a_t_n, &bias.now),
         };
+        let sample = SensorSample::before_the_first(&scene(&world, reference.is_some(), &begin, None));
         Ok(Self {
-            params: *params,
+            notes: run.mission.notes(),
+            mission: run.mission.name,
+            world,
+            reference,
             start_time,
             timeline,
             interval: 0,
             state,
             bias,
-            bias_walk: stream(params.study_seed.into(), params.run.into(), Source::AccelerometerBias),
+            felt: Felt::default(),
             latched: None,
-            sensors: Sensors::new(params),
-            sample: SensorSample::before_the_first(&scene(params, &begin)),
+            sensors,
+            sample,
             initial_estimate,
             now,
         })
@@ -170,8 +223,7 @@ impl Simulation {
         let t = self.checked_end(t)?;
         let end = self.locate(t - self.start_time);
         loop {
-            let next = self.sample.count + 1;
-            let elapsed = next as f64 * self.params.sample_period;
+            let elapsed = self.sensors.next();
             let place = self.locate(elapsed);
             // The tolerance is for samples off the grid; those on it are equal to their communication point.
             let due =
@@ -180,12 +232,22 @@ impl Simulation {
                 break;
             }
             self.complete_intervals(place.interval, inputs)?;
-            self.take_sample(self.start_time + elapsed, place.offset, inputs);
+            self.take_sample(elapsed, place.offset, inputs);
         }
         self.complete_intervals(end.interval, inputs)?;
         let instant = self.instant(end.offset, inputs);
-        self.now = moment(&self.params, t, &instant);
+        self.now = moment(&self.world, self.reference.as_ref(), t, &instant);
         finite(&self.now.state, t)
+    }
+
+    /// Name of the mission.
+    pub fn mission(&self) -> &str {
+        &self.mission
+    }
+
+    /// What a user should know of the mission.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
 
     /// The truth at the last communication point.
@@ -208,17 +270,13 @@ impl Simulation {
         &self.timeline
     }
 
-    fn grid(&self) -> f64 {
-        self.params.scenario.entry().grid
-    }
-
     /// The end of a step, moved up by rounding at most.
     fn checked_end(&self, t: f64) -> Result<f64, TruthError> {
         let now = self.now.time;
         if t.is_nan() || t < now - SNAP {
             return Err(TruthError::Backwards { now, asked: t });
         }
-        let limit = MAX_INTERVALS * self.grid();
+        let limit = MAX_INTERVALS * self.world.grid;
         if t - now > limit {
             return Err(TruthError::TooFar { now, asked: t, limit });
         }
@@ -227,7 +285,7 @@ impl Simulation {
 
     /// Where `elapsed`, s since the start time, lies on the grid.
     fn locate(&self, elapsed: f64) -> Place {
-        let grid = self.grid();
+        let grid = self.world.grid;
         let nearest = (elapsed / grid).round();
         if (elapsed - nearest * grid).abs() <= SNAP {
             return Place {
@@ -244,13 +302,14 @@ impl Simulation {
 
     /// Integrates to the begin of `interval`.
     fn complete_intervals(&mut self, interval: u64, inputs: &Inputs) -> Result<(), TruthError> {
-        let grid = self.grid();
+        let grid = self.world.grid;
         while self.interval < interval {
             let push = self.push(self.latched.as_ref().unwrap_or(inputs));
             let begin = self.interval as f64 * grid;
-            self.state = step(world(&self.params), &self.params, begin, &self.state, &push, grid);
-            let unit = normal3(&mut self.bias_walk);
-            self.bias = self.bias_after(grid, self.params.accelerometer_bias_sigma, &unit);
+            let end = self.world.step(begin, &self.state, &push, grid);
+            self.feel(&push, (self.interval + 1) as f64 * grid, &end);
+            self.state = end;
+            self.bias.step(grid);
             self.interval += 1;
             self.latched = None;
             finite(&self.state, self.start_time + begin + grid)?;
@@ -260,93 +319,126 @@ impl Simulation {
 
     /// The world `offset` seconds into the present interval.
     fn instant(&mut self, offset: f64, inputs: &Inputs) -> Instant {
-        let begin = self.interval as f64 * self.grid();
+        let begin = self.interval as f64 * self.world.grid;
         if offset <= 0.0 {
             return Instant {
                 t: begin,
                 state: self.state,
                 push: self.push(self.latched.as_ref().unwrap_or(inputs)),
-                b_c_bc: self.bias,
+                b_c_bc: self.bias.now,
             };
         }
         let latched = *self.latched.get_or_insert(*inputs);
         let push = self.push(&latched);
         Instant {
             t: begin + offset,
-            state: step(world(&self.params), &self.params, begin, &self.state, &push, offset),
+            state: self.world.step(begin, &self.state, &push, offset),
             push,
-            b_c_bc: self.bias_after(offset, 0.0, &Vector3::zeros()),
+            b_c_bc: self.bias.after(offset),
         }
     }
 
-    /// Takes the next sample, `offset` seconds into the present interval.
-    fn take_sample(&mut self, time: f64, offset: f64, inputs: &Inputs) {
+    /// Takes the next sample, `offset` seconds into the present interval and `elapsed` after the start of the run.
+    fn take_sample(&mut self, elapsed: f64, offset: f64, inputs: &Inputs) {
         let instant = self.instant(offset, inputs);
-        let scene = scene(&self.params, &instant);
-        self.sample = self.sensors.sample(&self.params, &self.sample, time, &scene);
+        if offset > 0.0 {
+            self.feel(&instant.push, elapsed, &instant.state);
+        }
+        let mean = self.mean_force(elapsed);
+        let scene = scene(&self.world, self.reference.is_some(), &instant, mean);
+        self.sample = self
+            .sensors
+            .sample(&self.sample, self.start_time + elapsed, elapsed, &scene);
+    }
+
+    /// What the accelerometer has felt since its last sample, in the mean, if that is what it measures now.
+    fn mean_force(&mut self, elapsed: f64) -> Option<Vector3<f64>> {
+        if !(self.sensors.measure_the_mean() && self.sensors.accelerometer_due(elapsed)) {
+            return None;
+        }
+        let Felt { since, impulse, .. } = self.felt;
+        self.felt = Felt {
+            since: elapsed,
+            until: elapsed,
+            impulse: Vector3::zeros(),
+        };
+        Some(impulse / (elapsed - since))
+    }
+
+    /// Goes on with the integral of the specific force to `until`, s since the start of the run and within the present interval
+    /// or at its end, where the vehicles are in `end`: by the trapezoidal rule, off by (turn per interval)^2 / 12 of it.
+    fn feel(&mut self, push: &Push, until: f64, end: &Vehicles) {
+        if !self.sensors.measure_the_mean() {
+            return;
+        }
+        let begin = self.interval as f64 * self.world.grid;
+        let from = self.felt.until.max(begin);
+        let length = until - from;
+        if length <= 0.0 {
+            return;
+        }
+        let at_from = if from > begin {
+            self.world.step(begin, &self.state, push, from - begin)
+        } else {
+            self.state
+        };
+        let felt = |t: f64, state: &Vehicles| {
+            let force =
+                self.world.surroundings(t, state).chaser.surface + self.world.push_on_chaser(t, state, &push.chaser);
+            if force == Vector3::zeros() {
+                return force;
+            }
+            self.world.dcm_bc_n(t, state) * force
+        };
+        self.felt.impulse += (felt(from, &at_from) + felt(until, end)) * (0.5 * length);
+        self.felt.until = until;
     }
 
     /// What acts over the present interval, given the inputs that act.
     fn push(&self, inputs: &Inputs) -> Push {
-        push_over(&self.timeline, self.interval, self.grid(), inputs)
-    }
-
-    fn bias_after(&self, dt: f64, sigma: f64, unit: &Vector3<f64>) -> Vector3<f64> {
-        accelerometer::bias_step(
-            &self.bias,
-            dt,
-            self.params.accelerometer_bias_time_constant,
-            sigma,
-            unit,
-        )
+        self.world.push_over(&self.timeline, self.interval) + inputs.push()
     }
 }
 
-fn world(params: &Params) -> &'static dyn World {
-    params.scenario.entry().world
-}
-
-/// What acts over a grid interval, given the inputs that act.
-fn push_over(timeline: &Timeline, interval: u64, grid: f64, inputs: &Inputs) -> Push {
-    timeline.push_around((interval as f64 + 0.5) * grid) + inputs.push()
+/// The circular motion that the true relative acceleration is told less of.
+fn reference(mission: &Mission, world: &World, state: &Vehicles, metrology: bool) -> Option<ClohessyWiltshire> {
+    let mu = world.environment.mu().filter(|_| metrology)?;
+    // Without elements, the osculating axis.
+    let osculating = || 1.0 / (2.0 / state.r_t.norm() - state.v_t.norm_squared() / mu);
+    let a = mission.navigation().reference_orbit_a_m.unwrap_or_else(osculating);
+    (a.is_finite() && a > 0.0).then(|| ClohessyWiltshire::from_semi_major_axis(a, mu))
 }
 
 /// What the outputs show of an instant.
-fn moment(params: &Params, time: f64, instant: &Instant) -> Moment {
+fn moment(world: &World, reference: Option<&ClohessyWiltshire>, time: f64, instant: &Instant) -> Moment {
     let Instant { t, state, push, b_c_bc } = instant;
-    let world = world(params);
     Moment {
         time,
         state: *state,
-        a_t_n: world.push_on_target(state, push),
+        a_t_n: world.push_on_target(*t, state, &push.target),
         b_c_bc: *b_c_bc,
-        relative: match world.instrument() {
-            Instrument::Lidar => None,
-            Instrument::Metrology(reference) => Some(Relative::new(world, params, *t, state, push, &reference)),
-        },
+        relative: reference.map(|reference| Relative::new(world, *t, state, push, reference)),
     }
 }
 
 /// What the sensors meet at an instant.
-fn scene(params: &Params, instant: &Instant) -> Scene {
+fn scene(world: &World, metrology: bool, instant: &Instant, mean_force_c_bc: Option<Vector3<f64>>) -> Scene {
     let Instant { t, state, push, b_c_bc } = instant;
-    let world = world(params);
-    let surroundings = world.surroundings(params, *t, state);
-    let view = match world.instrument() {
-        Instrument::Lidar => View::Lidar { r_tc_n: state.r_tc() },
-        Instrument::Metrology(_) => {
-            let a_t_n = surroundings.target.sum() + world.push_on_target(state, push);
-            let (rho, rho_dot) = Lvlh::new(&state.r_t, &state.v_t, &a_t_n).relative(&state.r_c, &state.v_c);
-            View::Metrology {
-                x_lvlh: metrology::measure(&rho, &rho_dot),
-                target_orbit: TargetOrbit::from_state(&state.r_t, &state.v_t),
-            }
-        }
-    };
+    let surroundings = world.surroundings(*t, state);
     Scene {
-        view,
-        force_c_n: surroundings.chaser.surface + push.chaser_n,
-        dcm_bc_n: world.dcm_bc_n(state),
+        r_tc_n: state.r_tc(),
+        v_tc_i_n: world.axes.inertial_velocity(&state.r_tc(), &state.v_tc()),
+        metrology: metrology.then(|| {
+            let a_t_n = surroundings.target.sum() + world.push_on_target(*t, state, &push.target);
+            let (rho, rho_dot) = Lvlh::new(&state.r_t, &state.v_t, &a_t_n).relative(&state.r_c, &state.v_c);
+            (
+                metrology::measure(&rho, &rho_dot),
+                TargetOrbit::from_state(&state.r_t, &state.v_t),
+            )
+        }),
+        force_c_n: surroundings.chaser.surface + world.push_on_chaser(*t, state, &push.chaser),
+        mean_force_c_bc,
+        dcm_bc_n: world.dcm_bc_n(*t, state),
         b_c_bc: *b_c_bc,
     }
 }

@@ -1,17 +1,40 @@
-//! Scheduled pushes: what acts when, beside gravity.
+//! Scheduled pushes: what acts when, beside the surroundings.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Accelerations, beside gravity, that act over one interval of the time grid, m/s2.
+use crate::disturbances::profiles::Profile;
+
+/// Accelerations of one vehicle over an interval of the time grid, m/s2.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Thrust {
+    /// Axes N.
+    pub n: Vector3<f64>,
+    /// Body axes; they turn with the vehicle.
+    pub body: Vector3<f64>,
+    /// Radial, transverse, normal of the vehicle's orbit.
+    pub rtn: Vector3<f64>,
+}
+
+/// What acts over one interval of the time grid, beside the surroundings.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Push {
-    /// On the target, fixed in its body axes (they turn with the state).
-    pub target_bt: Vector3<f64>,
-    /// On the target, axes N.
-    pub target_n: Vector3<f64>,
-    /// On the chaser, axes N.
-    pub chaser_n: Vector3<f64>,
+    /// On the target.
+    pub target: Thrust,
+    /// On the chaser.
+    pub chaser: Thrust,
+}
+
+impl std::ops::Add for Thrust {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            n: self.n + other.n,
+            body: self.body + other.body,
+            rtn: self.rtn + other.rtn,
+        }
+    }
 }
 
 impl std::ops::Add for Push {
@@ -19,11 +42,32 @@ impl std::ops::Add for Push {
 
     fn add(self, other: Self) -> Self {
         Self {
-            target_bt: self.target_bt + other.target_bt,
-            target_n: self.target_n + other.target_n,
-            chaser_n: self.chaser_n + other.chaser_n,
+            target: self.target + other.target,
+            chaser: self.chaser + other.chaser,
         }
     }
+}
+
+/// Which vehicle an event pushes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Side {
+    /// The target.
+    Target,
+    /// The chaser.
+    Chaser,
+}
+
+/// An acceleration in its axes, m/s2.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Vector {
+    /// Axes N.
+    N(Vector3<f64>),
+    /// Inertial axes.
+    Inertial(Vector3<f64>),
+    /// Body axes of the vehicle.
+    Body(Vector3<f64>),
+    /// Radial, transverse, normal of the vehicle's orbit.
+    Rtn(Vector3<f64>),
 }
 
 /// One push with its time.
@@ -33,58 +77,129 @@ pub struct Event {
     pub start: f64,
     /// Length, s.
     pub duration: f64,
-    /// What it does while it acts.
-    pub push: Push,
+    /// How it goes over its length.
+    pub profile: Profile,
+    /// Whom it pushes.
+    pub side: Side,
+    /// Acceleration where the profile is one.
+    pub acceleration: Vector,
+    /// Whether it takes part in finding the start from the end.
+    pub back_propagated: bool,
 }
 
 impl Event {
-    /// Whether the event acts at `t`, s since the start of the run; its last instant is excluded.
-    pub fn acts_at(&self, t: f64) -> bool {
-        self.start <= t && t < self.start + self.duration
+    /// What the event does over an interval, in the mean, so that no momentum is lost at its edges.
+    ///
+    /// * `n_from_inertial`: turns inertial axes into N at the middle of the interval.
+    fn push_over(&self, begin: f64, length: f64, n_from_inertial: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Push {
+        let share = self.profile.mean(begin - self.start, length, self.duration);
+        let mut thrust = Thrust::default();
+        match &self.acceleration {
+            Vector::N(a) => thrust.n = a * share,
+            Vector::Inertial(a) => thrust.n = n_from_inertial(a) * share,
+            Vector::Body(a) => thrust.body = a * share,
+            Vector::Rtn(a) => thrust.rtn = a * share,
+        }
+        let mut push = Push::default();
+        match self.side {
+            Side::Target => push.target = thrust,
+            Side::Chaser => push.chaser = thrust,
+        }
+        push
     }
 }
 
-/// All events of a run, in any order; they add where they overlap.
+/// All events of a run; they add where they overlap.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Timeline {
-    /// The events.
-    pub events: Vec<Event>,
+    /// By begin.
+    events: Vec<Event>,
+    /// The longest of them, s.
+    longest: f64,
 }
 
 impl Timeline {
-    /// What acts over the grid interval around `midpoint`, s since the start of the run.
+    /// These events, in any order.
+    pub fn new(mut events: Vec<Event>) -> Self {
+        events.sort_by(|a, b| a.start.total_cmp(&b.start));
+        let longest = events.iter().map(|e| e.duration).fold(0.0, f64::max);
+        Self { events, longest }
+    }
+
+    /// The events, by begin.
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// The events that take part in finding the start from the end.
+    pub(crate) fn back_propagated(&self) -> Self {
+        Self::new(self.events.iter().filter(|e| e.back_propagated).copied().collect())
+    }
+
+    /// What acts over an interval, in the mean.
     ///
-    /// An event acts over whole intervals, those whose midpoint it contains: exact for events on the grid, rounded to it for
-    /// others.
-    pub fn push_around(&self, midpoint: f64) -> Push {
-        self.events
+    /// * `begin`, `length`: of the interval, s since the start of the run.
+    /// * `n_from_inertial`: turns inertial axes into N at the middle of the interval.
+    pub fn push_over(&self, begin: f64, length: f64, n_from_inertial: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Push {
+        let first = self.events.partition_point(|e| e.start + self.longest <= begin);
+        self.events[first..]
             .iter()
-            .filter(|event| event.acts_at(midpoint))
-            .fold(Push::default(), |sum, event| sum + event.push)
+            .take_while(|e| e.start < begin + length)
+            .filter(|e| e.start + e.duration > begin)
+            .fold(Push::default(), |sum, event| {
+                sum + event.push_over(begin, length, &n_from_inertial)
+            })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::disturbances::profiles::OnOff;
 
-    #[test]
-    fn events_round_to_whole_intervals_and_add() {
-        let event = |start, duration, x| Event {
+    fn event(start: f64, duration: f64, x: f64) -> Event {
+        Event {
             start,
             duration,
-            push: Push {
-                target_n: Vector3::new(x, 0.0, 0.0),
-                ..Push::default()
-            },
-        };
-        let timeline = Timeline {
-            events: vec![event(2.0, 2.0, 1.0), event(2.6, 2.0, 10.0), event(7.6, 0.3, 100.0)],
-        };
+            profile: Profile::OnOff(OnOff),
+            side: Side::Target,
+            acceleration: Vector::N(Vector3::new(x, 0.0, 0.0)),
+            back_propagated: true,
+        }
+    }
+
+    #[test]
+    fn events_keep_their_momentum_on_any_grid_and_add() {
+        let timeline = Timeline::new(vec![
+            event(7.6, 0.3, 100.0),
+            event(2.0, 2.0, 1.0),
+            event(2.6, 2.0, 10.0),
+        ]);
         let acting: Vec<f64> = (0..9)
-            .map(|k| timeline.push_around(f64::from(k) + 0.5).target_n.x)
+            .map(|k| timeline.push_over(f64::from(k), 1.0, |v| *v).target.n.x)
             .collect();
-        // The second event covers the midpoints 3.5 and 4.5, the third none.
-        assert_eq!(acting, [0.0, 0.0, 1.0, 11.0, 10.0, 0.0, 0.0, 0.0, 0.0]);
+        // The second covers 0.4 of the interval from 2 s and 0.6 of that from 4 s; the third 0.3 of one.
+        let expected = [0.0, 0.0, 5.0, 11.0, 6.0, 0.0, 0.0, 30.0, 0.0];
+        for (acting, expected) in acting.iter().zip(expected) {
+            assert!((acting - expected).abs() < 1e-12, "{acting} and {expected}");
+        }
+    }
+
+    #[test]
+    fn whole_intervals_have_exactly_the_stated_acceleration() {
+        let timeline = Timeline::new(vec![event(0.3, 0.6, 0.1)]);
+        for k in 15..45 {
+            let x = timeline.push_over(f64::from(k) * 0.02, 0.02, |v| *v).target.n.x;
+            assert_eq!(x.to_bits(), 0.1_f64.to_bits(), "{k}");
+        }
+    }
+
+    #[test]
+    fn only_events_of_the_chasers_side_push_the_chaser() {
+        let mut burn = event(0.0, 1.0, 1.0);
+        burn.side = Side::Chaser;
+        burn.acceleration = Vector::Inertial(Vector3::x());
+        let push = Timeline::new(vec![burn]).push_over(0.0, 1.0, |v| Vector3::new(v.y, v.x, v.z));
+        assert!((push.chaser.n - Vector3::y()).amax() < 1e-15 && push.target == Thrust::default());
     }
 }

@@ -1,239 +1,240 @@
-//! What a world decides, and the list of worlds.
+//! The physics of one mission: environment, vehicles and axes, made once for a run. It keeps no state of the motion.
 
-use astro::{ClohessyWiltshire, frames};
-use nalgebra::{Matrix3, SVector, Vector3};
+use astro::frames;
+use interface::mission::{self, Mission};
+use nalgebra::{Matrix3, Rotation3, SVector, Vector3};
 use numerics::rk4;
 use serde::{Deserialize, Serialize};
 
-use crate::initial::InitialSigma;
-use crate::{Params, Push, Timeline, TruthError, Vehicles, worlds};
+use crate::attitude::{Attitude, Sight};
+use crate::environment::{Environment, Surface, Surroundings};
+use crate::timeline::{Push, Thrust, Timeline};
+use crate::{TruthError, Vehicles};
 
-/// Every world, in the order of the FMU's `scenario` enumeration. To add one: a file under `worlds/` and a line here.
-pub const WORLDS: &[WorldEntry] = &[
-    worlds::leo_venting::ENTRY,
-    worlds::nrho_venting::ENTRY,
-    worlds::formation::ENTRY,
-];
-
-/// One line of [`WORLDS`].
-#[derive(Clone, Copy)]
-pub struct WorldEntry {
-    /// Name in the `scenario` enumeration.
-    pub name: &'static str,
-    /// What it simulates, one line.
-    pub about: &'static str,
-    /// Nominal length of a run, s; the world goes on after it, without further events.
-    pub duration: f64,
+/// Surroundings, vehicles and axes of a mission.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct World {
+    pub(crate) environment: Environment,
+    pub(crate) axes: Axes,
+    target: Craft,
+    chaser: Craft,
     /// Interval of the time grid, s.
-    pub grid: f64,
-    /// Its physics.
-    pub world: &'static dyn World,
+    pub(crate) grid: f64,
 }
 
-/// The physics of one world. It keeps no state: the simulation owns the run.
-pub trait World: Sync {
-    /// Events of the run and the state at its start.
-    ///
-    /// # Errors
-    /// When the world's orbit cannot be computed.
-    fn start(&self, params: &Params) -> Result<Start, TruthError>;
-
-    /// What the surroundings do to the vehicles.
-    ///
-    /// * `t`: s since the start of the run.
-    fn surroundings(&self, params: &Params, t: f64, state: &Vehicles) -> Surroundings;
-
-    /// Normal of a vehicle's orbit, axes N, any length.
-    fn orbit_normal(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64>;
-
-    /// Rate of change of the state.
-    ///
-    /// * `t`: s since the start of the run.
-    /// * `push`: what acts beside the surroundings.
-    /// * returns: velocities and accelerations in the places of positions and velocities.
-    fn derivative(&self, params: &Params, t: f64, state: &Vehicles, push: &Push) -> Vehicles {
-        let Surroundings { target, chaser } = self.surroundings(params, t, state);
-        Vehicles {
-            r_t: state.v_t,
-            v_t: target.sum() + self.push_on_target(state, push),
-            r_c: state.v_c,
-            v_c: chaser.sum() + push.chaser_n,
-        }
-    }
-
-    /// Acceleration of the target by `push`, axes N, m/s2.
-    fn push_on_target(&self, state: &Vehicles, push: &Push) -> Vector3<f64> {
-        // The attitude costs as much as gravity and matters only to vents.
-        if push.target_bt == Vector3::zeros() {
-            return push.target_n;
-        }
-        push.target_n + self.dcm_bt_n(state).tr_mul(&push.target_bt)
-    }
-
-    /// Attitude of the target, which looks at the chaser: `dcm_bt_n`, maps N to target body axes.
-    fn dcm_bt_n(&self, state: &Vehicles) -> Matrix3<f64> {
-        frames::los_body_axes(
-            &-state.r_tc(),
-            &-state.v_tc(),
-            &self.orbit_normal(&state.r_t, &state.v_t),
-        )
-    }
-
-    /// Attitude of the chaser, which looks at the target: `dcm_bc_n`, maps N to chaser body axes.
-    fn dcm_bc_n(&self, state: &Vehicles) -> Matrix3<f64> {
-        frames::los_body_axes(&state.r_tc(), &state.v_tc(), &self.orbit_normal(&state.r_c, &state.v_c))
-    }
-
-    /// With what the chaser measures where the target is.
-    fn instrument(&self) -> Instrument {
-        Instrument::Lidar
-    }
-
-    /// Standard deviations of the initial estimate where the parameters leave them to the scenario.
-    fn initial_sigma(&self, params: &Params) -> InitialSigma;
+/// A vehicle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Craft {
+    surface: Surface,
+    attitude: Attitude,
 }
 
-/// Accelerations of both vehicles by their surroundings.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Surroundings {
-    /// Of the target.
-    pub target: Ambient,
-    /// Of the chaser.
-    pub chaser: Ambient,
-}
-
-impl Surroundings {
-    /// A field of gravity, a function of position and velocity (axes N, m and m/s), and nothing else.
-    pub fn field(state: &Vehicles, gravity: impl Fn(&Vector3<f64>, &Vector3<f64>) -> Vector3<f64>) -> Self {
-        let of = |r, v| Ambient {
-            gravity: gravity(r, v),
-            surface: Vector3::zeros(),
-        };
+impl Craft {
+    fn of(vehicle: &mission::Vehicle) -> Self {
         Self {
-            target: of(&state.r_t, &state.v_t),
-            chaser: of(&state.r_c, &state.v_c),
+            surface: Surface::of(vehicle),
+            attitude: Attitude::of(vehicle.attitude),
         }
     }
 }
 
-/// Accelerations of a vehicle by its surroundings, axes N, m/s2.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ambient {
-    /// By fields that pull on every part alike; an accelerometer does not feel them.
-    pub gravity: Vector3<f64>,
-    /// By air and light on the surface; an accelerometer feels it.
-    pub surface: Vector3<f64>,
+/// Axes N: inertial ones, or those that turn with the two bodies of the three-body problem about z.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) enum Axes {
+    Inertial,
+    Rotating {
+        /// Inverse of the rate of turning, s.
+        time: f64,
+        /// Angle by which N has turned from the inertial axes at `end`, rad.
+        angle_at_end: f64,
+        /// s since the start of the run.
+        end: f64,
+        /// Place of the smaller body, m.
+        secondary: Vector3<f64>,
+    },
 }
 
-impl Ambient {
-    /// Both together.
-    pub fn sum(&self) -> Vector3<f64> {
-        self.gravity + self.surface
+impl Axes {
+    fn of(mission: &Mission) -> Self {
+        match mission.environment.gravity.cr3bp() {
+            None => Self::Inertial,
+            Some(problem) => Self::Rotating {
+                time: problem.time_s,
+                angle_at_end: problem.inertial_angle_at_end_rad,
+                end: mission.time.duration_s,
+                secondary: astro::Cr3bp {
+                    mass_ratio: problem.mass_ratio,
+                }
+                .secondary()
+                    * problem.length_m,
+            },
+        }
     }
-}
 
-/// The chaser's instrument.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Instrument {
-    /// Range and angles to the target; the initial estimate is an inertial state.
-    Lidar,
-    /// The whole state relative to the target, in the axes of the target's orbit, beside that orbit itself; the initial
-    /// estimate is such a measurement. The true relative acceleration is told less that of this model.
-    Metrology(ClohessyWiltshire),
-}
-
-/// How a run begins.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Start {
-    /// State at the start time.
-    pub state: Vehicles,
-    /// What will push the vehicles.
-    pub timeline: Timeline,
-}
-
-/// An entry of [`WORLDS`] by its place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(try_from = "i32", into = "i32")]
-pub struct Scenario(usize);
-
-impl Scenario {
-    /// The entry.
-    pub fn entry(self) -> &'static WorldEntry {
-        // In range by construction: both ways to make one check it.
-        &WORLDS[self.0]
+    /// Maps inertial axes to N at `t`, s since the start of the run.
+    pub(crate) fn dcm_n_i(&self, t: f64) -> Matrix3<f64> {
+        match self {
+            Self::Inertial => Matrix3::identity(),
+            Self::Rotating {
+                time,
+                angle_at_end,
+                end,
+                ..
+            } => {
+                let angle = angle_at_end + (t - end) / time;
+                Rotation3::from_axis_angle(&Vector3::z_axis(), -angle).into_inner()
+            }
+        }
     }
-}
 
-impl TryFrom<i32> for Scenario {
-    type Error = TruthError;
+    /// Velocity relative to inertial axes of something at `r` (any origin) that moves with `v` in N.
+    pub(crate) fn inertial_velocity(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
+        match self {
+            Self::Inertial => *v,
+            Self::Rotating { time, .. } => v + Vector3::z().cross(r) / *time,
+        }
+    }
 
-    /// From the FMU's enumeration, which counts from 1.
-    fn try_from(ordinal: i32) -> Result<Self, TruthError> {
-        match usize::try_from(i64::from(ordinal) - 1) {
-            Ok(place) if place < WORLDS.len() => Ok(Self(place)),
-            _ => {
-                let names = WORLDS
-                    .iter()
-                    .enumerate()
-                    .map(|(place, entry)| format!("{} ({})", place + 1, entry.name));
-                Err(TruthError::Scenario {
-                    ordinal,
-                    known: names.collect::<Vec<_>>().join(", "),
-                })
+    /// Velocity in N of something at `r` (any origin) whose inertial velocity is `v`; undoes [`Axes::inertial_velocity`].
+    pub(crate) fn velocity_in_n(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
+        match self {
+            Self::Inertial => *v,
+            Self::Rotating { time, .. } => v - Vector3::z().cross(r) / *time,
+        }
+    }
+
+    /// Position and inertial velocity relative to the body that is orbited.
+    pub(crate) fn about_body(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+        match self {
+            Self::Inertial => (*r, *v),
+            Self::Rotating { secondary, .. } => {
+                let r = r - secondary;
+                (r, self.inertial_velocity(&r, v))
             }
         }
     }
 }
 
-impl From<Scenario> for i32 {
-    fn from(scenario: Scenario) -> i32 {
-        scenario.0 as i32 + 1
+impl World {
+    /// The world of a mission.
+    ///
+    /// # Errors
+    /// When a field of gravity cannot be read or a date makes no sense.
+    pub(crate) fn new(mission: &Mission) -> Result<Self, TruthError> {
+        Ok(Self {
+            environment: Environment::of(mission)?,
+            axes: Axes::of(mission),
+            target: Craft::of(&mission.target),
+            chaser: Craft::of(&mission.chaser),
+            grid: mission.time.grid_s,
+        })
+    }
+
+    /// What the surroundings do to the vehicles at `t`, s since the start of the run.
+    pub(crate) fn surroundings(&self, t: f64, state: &Vehicles) -> Surroundings {
+        self.environment
+            .act(t, state, &self.target.surface, &self.chaser.surface)
+    }
+
+    /// Rate of change of the state: velocities and accelerations in the places of positions and velocities.
+    ///
+    /// * `t`: s since the start of the run.
+    /// * `push`: what acts beside the surroundings.
+    pub(crate) fn derivative(&self, t: f64, state: &Vehicles, push: &Push) -> Vehicles {
+        let Surroundings { target, chaser } = self.surroundings(t, state);
+        Vehicles {
+            r_t: state.v_t,
+            v_t: target.sum() + self.push_on_target(t, state, &push.target),
+            r_c: state.v_c,
+            v_c: chaser.sum() + self.push_on_chaser(t, state, &push.chaser),
+        }
+    }
+
+    /// Acceleration of the target by `thrust`, axes N, m/s2.
+    pub(crate) fn push_on_target(&self, t: f64, state: &Vehicles, thrust: &Thrust) -> Vector3<f64> {
+        resolved(
+            thrust,
+            || self.dcm_bt_n(t, state),
+            || self.about(&state.r_t, &state.v_t),
+        )
+    }
+
+    /// Acceleration of the chaser by `thrust`, axes N, m/s2.
+    pub(crate) fn push_on_chaser(&self, t: f64, state: &Vehicles, thrust: &Thrust) -> Vector3<f64> {
+        resolved(
+            thrust,
+            || self.dcm_bc_n(t, state),
+            || self.about(&state.r_c, &state.v_c),
+        )
+    }
+
+    /// Attitude of the target: maps N to target body axes.
+    pub(crate) fn dcm_bt_n(&self, t: f64, state: &Vehicles) -> Matrix3<f64> {
+        let sight = self.sight(t, &state.r_t, &state.v_t, -state.r_tc(), -state.v_tc());
+        self.target.attitude.dcm_b_n(&sight)
+    }
+
+    /// Attitude of the chaser: maps N to chaser body axes.
+    pub(crate) fn dcm_bc_n(&self, t: f64, state: &Vehicles) -> Matrix3<f64> {
+        let sight = self.sight(t, &state.r_c, &state.v_c, state.r_tc(), state.v_tc());
+        self.chaser.attitude.dcm_b_n(&sight)
+    }
+
+    fn about(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+        self.axes.about_body(r, v)
+    }
+
+    fn sight(&self, t: f64, r: &Vector3<f64>, v: &Vector3<f64>, r_other: Vector3<f64>, v_other: Vector3<f64>) -> Sight {
+        let (r, v) = self.about(r, v);
+        Sight {
+            t,
+            r,
+            v,
+            r_other,
+            v_other,
+            normal: r.cross(&v),
+            dcm_n_i: self.axes.dcm_n_i(t),
+        }
+    }
+
+    /// What the timeline does over a grid interval.
+    pub(crate) fn push_over(&self, timeline: &Timeline, interval: u64) -> Push {
+        let begin = interval as f64 * self.grid;
+        timeline.push_over(begin, self.grid, |a| self.axes.dcm_n_i(begin + 0.5 * self.grid) * a)
+    }
+
+    /// State at the end of a step of length `h` (negative: backwards) that begins at `t`, s since the start of the run.
+    pub(crate) fn step(&self, t: f64, state: &Vehicles, push: &Push, h: f64) -> Vehicles {
+        let end = rk4::step(t, &state.to_vector(), h, |t, x| -> SVector<f64, 12> {
+            self.derivative(t, &Vehicles::from_vector(x), push).to_vector()
+        });
+        Vehicles::from_vector(&end)
+    }
+
+    /// State at the start of the run that leads to `last` when nothing but `timeline` acts.
+    ///
+    /// * `last`: state at the end of grid interval `intervals - 1`.
+    pub(crate) fn back_propagate(&self, timeline: &Timeline, last: &Vehicles, intervals: u64) -> Vehicles {
+        (0..intervals).rev().fold(*last, |state, k| {
+            let push = self.push_over(timeline, k);
+            self.step((k + 1) as f64 * self.grid, &state, &push, -self.grid)
+        })
     }
 }
 
-/// State at the end of a step of length `h` (negative: backwards) that begins at `t`, s since the start of the run.
-pub(crate) fn step(world: &dyn World, params: &Params, t: f64, state: &Vehicles, push: &Push, h: f64) -> Vehicles {
-    let end = rk4::step(t, &state.to_vector(), h, |t, x| -> SVector<f64, 12> {
-        world.derivative(params, t, &Vehicles::from_vector(x), push).to_vector()
-    });
-    Vehicles::from_vector(&end)
-}
-
-/// State at the start of the run that leads to `last` when nothing but `timeline` acts.
-///
-/// * `last`: state at the end of grid interval `intervals - 1`.
-/// * `grid`: interval of the time grid, s.
-pub(crate) fn back_propagate(
-    world: &dyn World,
-    params: &Params,
-    timeline: &Timeline,
-    last: &Vehicles,
-    intervals: u32,
-    grid: f64,
-) -> Vehicles {
-    (0..intervals).rev().fold(*last, |state, k| {
-        let push = timeline.push_around((f64::from(k) + 0.5) * grid);
-        step(world, params, f64::from(k + 1) * grid, &state, &push, -grid)
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn scenarios_are_the_entries_counted_from_one() {
-        for (place, entry) in (1..).zip(WORLDS) {
-            let scenario = Scenario::try_from(place).unwrap();
-            assert_eq!(scenario.entry().name, entry.name);
-            assert_eq!(i32::from(scenario), place);
-        }
-        for ordinal in [0, -1, i32::MIN, WORLDS.len() as i32 + 1] {
-            let error = Scenario::try_from(ordinal).unwrap_err().to_string();
-            assert!(
-                error.contains(&ordinal.to_string()) && error.contains("1 (leo_venting)"),
-                "{error}"
-            );
-        }
+/// A thrust in axes N. Attitudes cost as much as gravity and are asked for only where they matter.
+fn resolved(
+    thrust: &Thrust,
+    dcm_b_n: impl FnOnce() -> Matrix3<f64>,
+    orbit: impl FnOnce() -> (Vector3<f64>, Vector3<f64>),
+) -> Vector3<f64> {
+    let mut a = thrust.n;
+    if thrust.body != Vector3::zeros() {
+        a += dcm_b_n().tr_mul(&thrust.body);
     }
+    if thrust.rtn != Vector3::zeros() {
+        let (r, v) = orbit();
+        a += frames::rtn(&r, &v).tr_mul(&thrust.rtn);
+    }
+    a
 }

@@ -11,6 +11,7 @@ mod environment;
 mod error;
 mod events;
 mod navigation;
+mod notes;
 mod number;
 mod schema;
 mod sensors;

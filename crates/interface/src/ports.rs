@@ -1,0 +1,240 @@
+//! The quantities that cross between models, each said once: name, unit, shape and meaning.
+//!
+//! Where truth and filter use the same name, output connects to input: equal names connect is the whole wiring rule.
+
+/// Type of a port.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A real number, SI or radians.
+    Real,
+    /// A whole number.
+    Integer,
+    /// A truth value.
+    Boolean,
+    /// An item of an enumeration of this name.
+    Enumeration(&'static str),
+    /// Text.
+    String,
+}
+
+/// How many elements a port has; `name[1]` and `name[1,1]` are the first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// One.
+    Scalar,
+    /// A vector.
+    Vector(usize),
+    /// A matrix, row by row.
+    Matrix(usize, usize),
+}
+
+impl Shape {
+    /// Number of elements.
+    pub fn len(self) -> usize {
+        match self {
+            Self::Scalar => 1,
+            Self::Vector(n) => n,
+            Self::Matrix(rows, columns) => rows * columns,
+        }
+    }
+
+    /// Never: every port has an element.
+    pub fn is_empty(self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// Who offers a port and who reads it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// An output of the truth and an input of the filter.
+    Sensor,
+    /// An input of the truth.
+    Command,
+    /// An output of the truth that no filter may see.
+    Truth,
+    /// An output of the filter.
+    Estimate,
+}
+
+/// A quantity that crosses between models.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Port {
+    /// Name of the FMI variable, without `[i]`.
+    pub name: &'static str,
+    /// Type.
+    pub kind: Kind,
+    /// Units: one for all elements or one for each group of three; `1` for none.
+    pub units: &'static [&'static str],
+    /// Elements.
+    pub shape: Shape,
+    /// Meanings: one for all elements or one for each group of three.
+    pub about: &'static [&'static str],
+    /// Who offers and who reads it.
+    pub role: Role,
+}
+
+impl Port {
+    /// Unit of an element; empty for none.
+    pub fn unit(&self, element: usize) -> &'static str {
+        pick(self.units, element)
+    }
+
+    /// Meaning of an element.
+    pub fn about(&self, element: usize) -> &'static str {
+        pick(self.about, element)
+    }
+}
+
+fn pick(list: &'static [&'static str], element: usize) -> &'static str {
+    list.get(element / 3).or(list.first()).copied().unwrap_or_default()
+}
+
+/// The port of this name.
+pub fn port(name: &str) -> Option<&'static Port> {
+    PORTS.iter().find(|port| port.name == name)
+}
+
+/// The ports of a role, in order.
+pub fn of(role: Role) -> impl Iterator<Item = &'static Port> {
+    PORTS.iter().filter(move |port| port.role == role)
+}
+
+const fn row(
+    role: Role,
+    name: &'static str,
+    kind: Kind,
+    shape: Shape,
+    units: &'static [&'static str],
+    about: &'static [&'static str],
+) -> Port {
+    Port {
+        name,
+        kind,
+        units,
+        shape,
+        about,
+        role,
+    }
+}
+
+use Kind::{Boolean, Enumeration, Integer, Real};
+use Role::{Command, Estimate, Sensor, Truth};
+use Shape::{Matrix, Scalar, Vector};
+
+/// Units of the 18 states, by groups of three.
+const STATES: &[&str] = &["m", "m/s", "m/s2", "m", "m/s", "m/s2"];
+
+/// Every port.
+#[rustfmt::skip]
+pub const PORTS: &[Port] = &[
+    row(Command, "a_cmd_c_n", Real, Vector(3), &["m/s2"],
+        &["extra acceleration of the chaser, axes N; acts from the next grid point, the accelerometer feels it"]),
+    row(Command, "a_dist_t_n", Real, Vector(3), &["m/s2"],
+        &["extra acceleration of the target, axes N; acts from the next grid point"]),
+
+    row(Sensor, "sample_time", Real, Scalar, &["s"], &["epoch of the newest sensor sample; 0 before the first"]),
+    row(Sensor, "sample_count", Integer, Scalar, &[], &["ordinal of the newest sensor sample; 0 before the first"]),
+    row(Sensor, "lidar.valid", Boolean, Scalar, &[],
+        &["whether the LiDAR saw the target; if not, range and angles keep their last values"]),
+    row(Sensor, "lidar.range", Real, Scalar, &["m"], &["measured distance from chaser to target"]),
+    row(Sensor, "lidar.azimuth", Real, Scalar, &["rad"], &["measured angle atan(rho_x / rho_z) in LiDAR axes"]),
+    row(Sensor, "lidar.elevation", Real, Scalar, &["rad"], &["measured angle atan(rho_y / rho_z) in LiDAR axes"]),
+    row(Sensor, "accelerometer.alpha_c_bc", Real, Vector(3), &["m/s2"],
+        &["accelerometer reading, chaser body axes: the acceleration just after the epoch, or the mean since the last sample"]),
+    row(Sensor, "dcm_bc_n", Real, Matrix(3, 3), &["1"],
+        &["attitude of the chaser at the epoch: direction cosine matrix from axes N to chaser body axes"]),
+    row(Sensor, "metrology.valid", Boolean, Scalar, &[],
+        &["whether the metrology saw the target; if not, its measurement keeps the last values"]),
+    row(Sensor, "metrology.rho_lvlh", Real, Vector(3), &["m"],
+        &["measured position of the chaser relative to the target, LVLH axes of the target"]),
+    row(Sensor, "metrology.rho_dot_lvlh", Real, Vector(3), &["m/s"],
+        &["measured rate of that position as seen in the turning LVLH axes"]),
+    row(Sensor, "target_orbit.r", Real, Scalar, &["m"],
+        &["distance of the target from the central body at the epoch, as known on board; with metrology"]),
+    row(Sensor, "target_orbit.r_dot", Real, Scalar, &["m/s"], &["rate of that distance; with metrology"]),
+    row(Sensor, "target_orbit.h", Real, Scalar, &["m2/s"],
+        &["angular momentum of the target per unit mass; with metrology"]),
+    row(Sensor, "target_orbit.inclination", Real, Scalar, &["rad"],
+        &["inclination of the target's orbit; with metrology"]),
+    row(Sensor, "target_orbit.argument_of_latitude", Real, Scalar, &["rad"],
+        &["angle from the ascending node to the target, in (-pi, pi]; with metrology"]),
+    row(Sensor, "nav_init.x", Real, Vector(18), STATES, &[
+        "initial estimate drawn around the truth: position of the target relative to the chaser, axes N; in the LVLH frame as \
+         metrology.rho_lvlh",
+        "initial estimate drawn around the truth: velocity of the target relative to the chaser, axes N; in the LVLH frame as \
+         metrology.rho_dot_lvlh",
+        "initial estimate drawn around the truth: unmodelled acceleration of the target, axes N; in the LVLH frame 0",
+        "initial estimate drawn around the truth: position of the chaser, axes N; in the LVLH frame 0",
+        "initial estimate drawn around the truth: velocity of the chaser, axes N; in the LVLH frame 0",
+        "initial estimate drawn around the truth: accelerometer bias, chaser body axes; in the LVLH frame 0",
+    ]),
+    row(Sensor, "accelerometer.valid", Boolean, Scalar, &[], &["whether the accelerometer measured at this epoch"]),
+    row(Sensor, "accelerometer.mean", Boolean, Scalar, &[],
+        &["whether its reading is the mean since its last sample rather than the instant after the epoch"]),
+    row(Sensor, "lidar.due", Boolean, Scalar, &[], &["whether the LiDAR samples at this epoch; due and not valid is a dropout"]),
+    row(Sensor, "metrology.due", Boolean, Scalar, &[], &["whether the metrology samples at this epoch"]),
+    row(Sensor, "camera.due", Boolean, Scalar, &[], &["whether the camera samples at this epoch"]),
+    row(Sensor, "camera.valid", Boolean, Scalar, &[],
+        &["whether the camera saw the target; if not, its angles keep their last values"]),
+    row(Sensor, "camera.azimuth", Real, Scalar, &["rad"], &["measured angle atan(rho_x / rho_z) in LiDAR axes"]),
+    row(Sensor, "camera.elevation", Real, Scalar, &["rad"], &["measured angle atan(rho_y / rho_z) in LiDAR axes"]),
+    row(Sensor, "radio.due", Boolean, Scalar, &[], &["whether the radio link samples at this epoch"]),
+    row(Sensor, "radio.valid", Boolean, Scalar, &[],
+        &["whether the radio link measured; if not, range and rate keep their last values"]),
+    row(Sensor, "radio.range", Real, Scalar, &["m"], &["measured distance from chaser to target"]),
+    row(Sensor, "radio.range_rate", Real, Scalar, &["m/s"], &["measured rate of that distance"]),
+
+    row(Truth, "truth.r_tc_n", Real, Vector(3), &["m"], &["true position of the target relative to the chaser, axes N"]),
+    row(Truth, "truth.v_tc_n", Real, Vector(3), &["m/s"], &["true velocity of the target relative to the chaser, axes N"]),
+    row(Truth, "truth.a_t_n", Real, Vector(3), &["m/s2"],
+        &["true acceleration of the target by vents, burns and a_dist_t_n, axes N, just after this time"]),
+    row(Truth, "truth.r_c_n", Real, Vector(3), &["m"], &["true position of the chaser, axes N"]),
+    row(Truth, "truth.v_c_n", Real, Vector(3), &["m/s"], &["true velocity of the chaser, axes N"]),
+    row(Truth, "truth.b_c_bc", Real, Vector(3), &["m/s2"], &["true accelerometer bias, chaser body axes"]),
+    row(Truth, "truth.rho_lvlh", Real, Vector(3), &["m"],
+        &["true position of the chaser relative to the target, LVLH axes of the target; with metrology"]),
+    row(Truth, "truth.rho_dot_lvlh", Real, Vector(3), &["m/s"],
+        &["true rate of that position as seen in the turning LVLH axes; with metrology"]),
+    row(Truth, "truth.d_lvlh", Real, Vector(3), &["m/s2"],
+        &["true relative acceleration less that of Clohessy-Wiltshire motion, LVLH axes, just after this time; with metrology"]),
+
+    row(Estimate, "est.time", Real, Scalar, &["s"], &["epoch of the sample last used"]),
+    row(Estimate, "est.count", Integer, Scalar, &[], &["ordinal of the sample last used"]),
+    row(Estimate, "est.dimension", Integer, Scalar, &[],
+        &["states with a covariance: relative position and velocity, and acceleration where it is estimated"]),
+    row(Estimate, "est.r_tc_n", Real, Vector(3), &["m"], &["target relative to chaser, position, axes N"]),
+    row(Estimate, "est.v_tc_n", Real, Vector(3), &["m/s"], &["target relative to chaser, velocity, axes N"]),
+    row(Estimate, "est.a_t_n", Real, Vector(3), &["m/s2"], &["unmodelled acceleration of the target, axes N"]),
+    row(Estimate, "est.r_c_n", Real, Vector(3), &["m"], &["chaser position (consider state), axes N"]),
+    row(Estimate, "est.v_c_n", Real, Vector(3), &["m/s"], &["chaser velocity (consider state), axes N"]),
+    row(Estimate, "est.b_c_bc", Real, Vector(3), &["m/s2"], &["accelerometer bias, chaser body axes"]),
+    row(Estimate, "est.rho_lvlh", Real, Vector(3), &["m"], &["chaser relative to target, position, LVLH of the target"]),
+    row(Estimate, "est.rho_dot_lvlh", Real, Vector(3), &["m/s"], &["chaser relative to target, velocity, LVLH of the target"]),
+    row(Estimate, "est.d_lvlh", Real, Vector(3), &["m/s2"],
+        &["acceleration that Clohessy-Wiltshire leaves out, LVLH of the target"]),
+    row(Estimate, "est.acceleration_valid", Boolean, Scalar, &[],
+        &["whether the filter estimates an unmodelled acceleration, be it as a state with a covariance or not"]),
+    row(Estimate, "nis", Real, Scalar, &["1"],
+        &["normalised innovation squared of the newest measurement of the target; 0 without a covariance"]),
+    row(Estimate, "nis.rows", Integer, Scalar, &[], &["rows of that measurement"]),
+    row(Estimate, "q.s", Real, Vector(3), &["m/s^2.5"], &["square root of the jerk density in use, axes of the estimate"]),
+    row(Estimate, "q.updates", Integer, Scalar, &[], &["times the law changed its process noise"]),
+    row(Estimate, "status", Enumeration("Status"), Scalar, &[], &["what the filter is doing"]),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_and_every_element_has_unit_and_meaning() {
+        for (place, port) in PORTS.iter().enumerate() {
+            assert!(PORTS[place + 1..].iter().all(|p| p.name != port.name), "{}", port.name);
+            for element in 0..port.shape.len() {
+                assert!(!port.about(element).is_empty(), "{}", port.name);
+                assert_eq!(port.kind == Real, !port.unit(element).is_empty(), "{}", port.name);
+            }
+        }
+    }
+}
