@@ -6,6 +6,7 @@
 pub mod bound;
 pub mod mission;
 pub mod ports;
+pub mod render;
 pub mod signals;
 pub mod status;
 

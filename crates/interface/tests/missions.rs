@@ -226,3 +226,19 @@ fn schema_knows_every_section() {
         assert!(schema.contains(key), "{key}");
     }
 }
+
+#[test]
+fn every_mission_in_the_folder_reads() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../missions");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|e| e == "toml") {
+            let mission = Mission::read(&path).unwrap_or_else(|e| panic!("{e}"));
+            assert_eq!(Some(mission.name.as_str()), path.file_stem().and_then(|s| s.to_str()));
+            assert_eq!(mission.notes(), Vec::<String>::new(), "{}", path.display());
+            seen += 1;
+        }
+    }
+    assert!(seen >= EMBEDDED.len());
+}

@@ -34,7 +34,7 @@ pub use navigation::{
     BelievedSensors, Frame, InitialSigma, KnownAccelerometer, KnownCamera, KnownLidar, KnownMetrology, KnownRadio,
     Navigation, NavigationSection, P0, Scale, Told, Units, UnitsChoice,
 };
-pub use schema::schema;
+pub use schema::{schema, schema_value};
 pub use sensors::{Accelerometer, AccelerometerOutput, Camera, Faults, Lidar, Metrology, Radio, Sensors};
 pub use study::{Phase, ResultAxes, Study};
 pub use vehicles::{At, Attitude, Elements, Orbit, Relative, RelativeAxes, StateVector, Vehicle};

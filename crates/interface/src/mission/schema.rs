@@ -4,6 +4,10 @@ use super::Mission;
 
 /// The schema, as JSON text.
 pub fn schema() -> String {
-    let schema = schemars::schema_for!(Mission);
-    format!("{:#}\n", schema.to_value())
+    format!("{:#}\n", schema_value())
+}
+
+/// The schema.
+pub fn schema_value() -> serde_json::Value {
+    schemars::schema_for!(Mission).to_value()
 }
