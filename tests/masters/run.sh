@@ -43,7 +43,7 @@ if [ -x "$python" ]; then
     # Its library takes Python from the program that loads it, so the harness must bring one.
     interpreter=$("$python" -c 'import os, sysconfig as s; print(os.path.join(*s.get_config_vars("LIBDIR", "LDLIBRARY")))')
     if [ -f "$interpreter" ] && [[ $interpreter == *.so* ]]; then
-        "$work/venv/bin/pythonfmu" build --file "$here/toy.py" --dest "$work" >"$work/pythonfmu.log"
+        "$work/venv/bin/pythonfmu" build --file examples/04_own_filter_in_python/direct_inversion.py --dest "$work" >"$work/pythonfmu.log"
         program=$(cargo build --release --quiet --package trade-harness --message-format json \
             | "$python" -c 'import json, sys; print([a["executable"] for a in map(json.loads, sys.stdin) if a.get("executable")][-1])')
         study() {
