@@ -28,7 +28,12 @@ pub fn interface_document() -> String {
         let about = entry.mission().map(|m| m.about).unwrap_or_default();
         vec![number.to_string(), format!("`{}`", entry.name), about]
     });
-    section(&mut out, "Items of `scenario`", &["number", "name", "mission"], scenarios);
+    section(
+        &mut out,
+        "Items of `scenario`",
+        &["number", "name", "mission"],
+        scenarios,
+    );
     out.push_str(INTERFACE_TAIL);
     out
 }
@@ -59,7 +64,11 @@ const INTERFACE_TAIL: &str = "## Rules
 pub fn mission_document() -> String {
     let mut out = String::from(MISSION_HEAD);
     let schema = schema_value();
-    let definitions = schema.get("$defs").and_then(Value::as_object).cloned().unwrap_or_default();
+    let definitions = schema
+        .get("$defs")
+        .and_then(Value::as_object)
+        .cloned()
+        .unwrap_or_default();
     table(&mut out, "Top level", &schema);
     for (name, definition) in &definitions {
         table(&mut out, &format!("`{name}`"), definition);
@@ -144,7 +153,12 @@ fn table(out: &mut String, title: &str, definition: &Value) {
         out.push('\n');
     }
     for choice in choices(definition) {
-        let _ = writeln!(out, "* {}: {}", values(choice), text(choice, "description").replace('\n', " "));
+        let _ = writeln!(
+            out,
+            "* {}: {}",
+            values(choice),
+            text(choice, "description").replace('\n', " ")
+        );
     }
     if !choices(definition).is_empty() {
         out.push('\n');
@@ -193,7 +207,11 @@ fn values(property: &Value) -> String {
         return options.join(" or ");
     }
     if let Some(kinds) = property.get("type").and_then(Value::as_array) {
-        let kinds: Vec<&str> = kinds.iter().filter_map(Value::as_str).filter(|k| *k != "null").collect();
+        let kinds: Vec<&str> = kinds
+            .iter()
+            .filter_map(Value::as_str)
+            .filter(|k| *k != "null")
+            .collect();
         let mut same: Map<String, Value> = property.as_object().cloned().unwrap_or_default();
         same.insert("type".into(), kinds.first().copied().unwrap_or_default().into());
         return values(&Value::Object(same));
@@ -208,7 +226,10 @@ fn values(property: &Value) -> String {
         },
         "object" => match property.get("properties").and_then(Value::as_object) {
             Some(keys) => {
-                let keys: Vec<String> = keys.iter().map(|(key, value)| format!("`{key}` = {}", values(value))).collect();
+                let keys: Vec<String> = keys
+                    .iter()
+                    .map(|(key, value)| format!("`{key}` = {}", values(value)))
+                    .collect();
                 format!("{{ {} }}", keys.join(", "))
             }
             None => "table".into(),
