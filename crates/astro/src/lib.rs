@@ -24,7 +24,7 @@ pub use clohessy_wiltshire::ClohessyWiltshire;
 pub use cr3bp::Cr3bp;
 pub use elements::Elements;
 pub use error::AstroError;
-pub use harmonics::SphericalHarmonics;
+pub use harmonics::{Coefficients, FieldError, SphericalHarmonics};
 pub use relative::Lvlh;
 pub use relative_j2::{J2RelativeMotion, TargetOrbit};
 pub use zonal::ZonalGravity;

@@ -183,7 +183,7 @@ fn forces_are_the_sum_of_their_parts() {
         ..full()
     };
     let world = params.scenario.entry().world;
-    let field = SphericalHarmonics::new(EGM96);
+    let field = SphericalHarmonics::new(EGM96.coefficients());
     let mut dark = 0;
     for moment in path(&params, DURATION).iter().step_by(1371) {
         let days = epoch::days_since_j2000(2_458_849.5, moment.time);

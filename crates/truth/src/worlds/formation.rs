@@ -48,7 +48,7 @@ const CD: f64 = 2.2;
 /// Julian date of the start: 2020 January 1, 0 h. The paper prints none.
 const EPOCH_JD: f64 = 2_458_849.5;
 
-static GEOPOTENTIAL: LazyLock<SphericalHarmonics<4>> = LazyLock::new(|| SphericalHarmonics::new(EGM96));
+static GEOPOTENTIAL: LazyLock<SphericalHarmonics> = LazyLock::new(|| SphericalHarmonics::new(EGM96.coefficients()));
 /// What the J2 relative model knows of it.
 static OBLATE_EARTH: LazyLock<ZonalGravity> = LazyLock::new(|| ZonalGravity {
     mu: EGM96.mu,
