@@ -20,6 +20,7 @@ mod relative_j2;
 pub mod sun_moon;
 mod zonal;
 
+pub use atmosphere::Atmosphere;
 pub use clohessy_wiltshire::ClohessyWiltshire;
 pub use cr3bp::Cr3bp;
 pub use elements::Elements;
