@@ -1,4 +1,12 @@
 //! The contract of the project, said once and used by both FMUs and by the harness: what a mission file may say, which
 //! quantities cross between models, what a status means and which values are accepted.
 //!
-//! Nothing here computes motion, estimates or statistics.
+//! Nothing here computes motion, estimates or statistics. Start reading at [`mission::Mission`].
+
+pub mod bound;
+pub mod mission;
+pub mod status;
+
+pub use bound::Bound;
+pub use mission::{Mission, MissionError, Navigation};
+pub use status::Status;

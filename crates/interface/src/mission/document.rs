@@ -1,0 +1,295 @@
+//! A mission file as text: places of keys, changes to it, and the way to a checked [`Mission`].
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use toml_edit::{Document as Spanned, DocumentMut, Item, TableLike, Value};
+
+use super::check::{self, Finding};
+use super::{FORMAT, Mission, MissionError, Problem};
+
+/// The text of a mission file. Changes keep its comments.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Document {
+    origin: String,
+    folder: PathBuf,
+    text: String,
+}
+
+impl Document {
+    /// Reads a file; nothing is checked yet.
+    ///
+    /// # Errors
+    /// [`MissionError::Read`].
+    pub fn read(path: &Path) -> Result<Self, MissionError> {
+        let read = |path: &Path| {
+            let folder = std::path::absolute(path)?
+                .parent()
+                .map(Path::to_owned)
+                .unwrap_or_default();
+            Ok::<_, std::io::Error>((std::fs::read_to_string(path)?, folder))
+        };
+        let (text, folder) = read(path).map_err(|source| MissionError::Read {
+            path: path.display().to_string(),
+            reason: source.to_string(),
+        })?;
+        Ok(Self {
+            origin: path.display().to_string(),
+            folder,
+            text,
+        })
+    }
+
+    /// A text that messages call `origin`.
+    ///
+    /// # Errors
+    /// When it is no TOML.
+    pub fn parse(origin: &str, text: &str) -> Result<Self, MissionError> {
+        let document = Self {
+            origin: origin.to_owned(),
+            folder: PathBuf::new(),
+            text: text.to_owned(),
+        };
+        document.spanned()?;
+        Ok(document)
+    }
+
+    /// The text as it stands now.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Folder that relative paths in the file start from.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Sets a key, as in `vent.co2.period_s` or `navigation.law.milton.r_w`; entries of lists go by their name or number.
+    ///
+    /// * `value`: as TOML writes it; what is no TOML value is taken as text.
+    ///
+    /// # Errors
+    /// [`MissionError::Set`] when a table on the way does not exist. Whether the key is a known one shows when the mission is
+    /// read.
+    pub fn set(&mut self, key: &str, value: &str) -> Result<(), MissionError> {
+        let refuse = |reason: String| MissionError::Set {
+            key: key.to_owned(),
+            reason,
+        };
+        let mut document: DocumentMut = self
+            .text
+            .parse()
+            .map_err(|e: toml_edit::TomlError| refuse(e.to_string()))?;
+        let parsed: Value = value.parse().unwrap_or_else(|_| Value::from(value));
+        let segments = segments(key);
+        let Some((last, tables)) = segments.split_last() else {
+            return Err(refuse("it is empty".into()));
+        };
+        let table = holder(document.as_table_mut(), tables).map_err(&refuse)?;
+        match table.get_mut(last) {
+            Some(Item::Value(old)) => {
+                // What stands around a value, a comment behind it above all, stays.
+                let decor = old.decor().clone();
+                *old = parsed;
+                *old.decor_mut() = decor;
+            }
+            _ => {
+                table.insert(last, Item::Value(parsed));
+            }
+        }
+        self.text = document.to_string();
+        Ok(())
+    }
+
+    /// The mission that the text states.
+    ///
+    /// # Errors
+    /// [`MissionError::Invalid`] with everything that is wrong.
+    pub fn mission(&self) -> Result<Mission, MissionError> {
+        let spanned = self.spanned()?;
+        let problem = |path: &str, what: String| self.problem(span_of(spanned.as_table(), &segments(path)), what);
+        if let Some(version) = spanned.get("mission").and_then(Item::as_integer)
+            && version > i64::from(FORMAT)
+        {
+            let what = format!("mission = {version} is a newer format than this program reads: at most {FORMAT}");
+            return Err(MissionError::Invalid(vec![problem("mission", what)]));
+        }
+        let mut not_finite = Vec::new();
+        floats(spanned.as_item(), String::new(), &mut |path, value, span| {
+            if !value.is_finite() {
+                not_finite.push(self.problem(span, format!("{path} = {value}: it must be a finite number")));
+            }
+        });
+        if !not_finite.is_empty() {
+            return Err(MissionError::Invalid(not_finite));
+        }
+        let mut mission: Mission = toml::from_str(&self.text).map_err(|e| {
+            MissionError::Invalid(vec![
+                self.problem(e.span(), friendlier(e.message(), &self.text, e.span())),
+            ])
+        })?;
+        mission.folder = self.folder.clone();
+        let findings = check::findings(&mission);
+        if findings.is_empty() {
+            return Ok(mission);
+        }
+        Err(MissionError::Invalid(
+            findings
+                .into_iter()
+                .map(|Finding { path, what }| problem(&path, what))
+                .collect(),
+        ))
+    }
+
+    fn spanned(&self) -> Result<Spanned<&str>, MissionError> {
+        Spanned::parse(self.text.as_str())
+            .map_err(|e| MissionError::Invalid(vec![self.problem(e.span(), e.message().to_owned())]))
+    }
+
+    fn problem(&self, span: Option<Range<usize>>, what: String) -> Problem {
+        Problem {
+            origin: self.origin.clone(),
+            place: span.map(|span| place(&self.text, span.start)),
+            what,
+        }
+    }
+}
+
+/// Line and column, from 1, of a byte.
+fn place(text: &str, at: usize) -> (usize, usize) {
+    let before = text.get(..at).unwrap_or(text);
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().map_or(0, |last| last.chars().count()) + 1;
+    (line, column)
+}
+
+/// The entry of a list that has this name, or this number counted from 1.
+fn place_in_list<'a>(names: impl Iterator<Item = Option<&'a str>>, segment: &str) -> Option<usize> {
+    let names: Vec<_> = names.collect();
+    names.iter().position(|name| *name == Some(segment)).or_else(|| {
+        let number: usize = segment.parse().ok()?;
+        (1..=names.len()).contains(&number).then(|| number - 1)
+    })
+}
+
+fn name_of(table: &dyn TableLike) -> Option<&str> {
+    table.get("name").and_then(Item::as_str)
+}
+
+/// The parts of a path; names of laws have a dot of their own.
+fn segments(path: &str) -> Vec<&str> {
+    match path.strip_prefix("navigation.law.") {
+        Some(law) => vec!["navigation", "law", law],
+        None => path.split('.').collect(),
+    }
+}
+
+/// Place of what a path names, or of the nearest thing that holds it.
+fn span_of(table: &dyn TableLike, path: &[&str]) -> Option<Range<usize>> {
+    let (first, rest) = path.split_first()?;
+    let item = table.get(first)?;
+    let deeper = match (item, rest.split_first()) {
+        (Item::ArrayOfTables(list), Some((entry, rest))) => {
+            let at = place_in_list(list.iter().map(|t| name_of(t)), entry)?;
+            let table = list.get(at)?;
+            span_of(table, rest).or_else(|| table.span())
+        }
+        (item, Some(_)) => item.as_table_like().and_then(|table| span_of(table, rest)),
+        (_, None) => None,
+    };
+    let of_key = || table.key(first).and_then(toml_edit::Key::span);
+    deeper.or_else(|| item.span()).or_else(of_key)
+}
+
+/// The table that holds the last key of a path; tables that do not exist are made.
+fn holder<'a>(table: &'a mut dyn TableLike, path: &[&str]) -> Result<&'a mut dyn TableLike, String> {
+    let Some((first, rest)) = path.split_first() else {
+        return Ok(table);
+    };
+    let item = table.entry(first).or_insert_with(toml_edit::table);
+    if let Item::ArrayOfTables(list) = item {
+        let names: Vec<&str> = list.iter().filter_map(|t| name_of(t)).collect();
+        let known = names.join(", ");
+        let Some((entry, rest)) = rest.split_first() else {
+            return Err(format!("{first:?} is a list: say which entry, of {known}"));
+        };
+        let at = place_in_list(list.iter().map(|t| name_of(t)), entry);
+        return match at.and_then(|at| list.get_mut(at)) {
+            Some(table) => holder(table, rest),
+            None => Err(format!("{first:?} has no entry {entry:?}: there are {known}")),
+        };
+    }
+    match item.as_table_like_mut() {
+        Some(table) => holder(table, rest),
+        None => Err(format!("{first:?} is no table")),
+    }
+}
+
+/// Calls `each` with every float of the document: its path, value and place.
+fn floats(item: &Item, path: String, each: &mut impl FnMut(&str, f64, Option<Range<usize>>)) {
+    let below = |key: &str| {
+        if path.is_empty() {
+            key.to_owned()
+        } else {
+            format!("{path}.{key}")
+        }
+    };
+    match item {
+        Item::None => (),
+        Item::Value(value) => floats_of(value, &path, each),
+        Item::Table(table) => table.iter().for_each(|(key, item)| floats(item, below(key), each)),
+        Item::ArrayOfTables(list) => {
+            for (place, table) in (1..).zip(list) {
+                let name = name_of(table).map_or_else(|| format!("{place}"), str::to_owned);
+                for (key, item) in table {
+                    floats(item, format!("{}.{key}", below(&name)), each);
+                }
+            }
+        }
+    }
+}
+
+fn floats_of(value: &Value, path: &str, each: &mut impl FnMut(&str, f64, Option<Range<usize>>)) {
+    match value {
+        Value::Float(float) => each(path, *float.value(), value.span()),
+        Value::Array(array) => array.iter().for_each(|value| floats_of(value, path, each)),
+        Value::InlineTable(table) => table
+            .iter()
+            .for_each(|(key, value)| floats_of(value, &format!("{path}.{key}"), each)),
+        _ => (),
+    }
+}
+
+/// A parser's message, with the nearest of the names it lists.
+fn friendlier(message: &str, text: &str, span: Option<Range<usize>>) -> String {
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    let kind = ["unknown field", "unknown variant"]
+        .into_iter()
+        .find(|kind| message.starts_with(kind));
+    if let (Some(kind), Some((given, known))) = (kind, quoted.split_first()) {
+        let what = if kind == "unknown field" {
+            "unknown key"
+        } else {
+            "unknown value"
+        };
+        let nearest = known
+            .iter()
+            .map(|name| (strsim::damerau_levenshtein(given, name), *name))
+            // A name without its unit is a likely slip.
+            .min_by_key(|(distance, name)| if name.starts_with(given) { 0 } else { *distance });
+        let hint = match nearest {
+            Some((distance, name)) if distance <= 1 + given.len() / 2 || name.starts_with(given) => {
+                format!(", did you mean `{name}`?")
+            }
+            _ => ";".into(),
+        };
+        let mut names = known.to_vec();
+        names.sort_unstable();
+        return format!("{what} `{given}`{hint} allowed here: {}", names.join(", "));
+    }
+    let given = span.and_then(|span| text.get(span)).unwrap_or_default();
+    if message.starts_with("invalid type") && !given.is_empty() && given.len() < 60 && !given.contains('\n') {
+        return format!("{message}, in `{given}`");
+    }
+    message.to_owned()
+}

@@ -1,0 +1,228 @@
+//! Mission files: what comes with the project reads, and what is wrong is named with its place.
+
+use interface::mission::{Document, EMBEDDED, First, Gravity, Mission, MissionError, embedded, schema};
+
+const LEO: &str = include_str!("../../../missions/leo_venting.toml");
+
+/// The embedded LEO mission with `from` replaced by `to`.
+fn changed(from: &str, to: &str) -> Result<Mission, MissionError> {
+    assert!(LEO.contains(from), "{from}");
+    Mission::parse("leo.toml", &LEO.replacen(from, to, 1))
+}
+
+/// Line of the first appearance of `text`, from 1.
+fn line(of: &str, text: &str) -> usize {
+    of.lines().position(|l| l.contains(text)).map_or(0, |place| place + 1)
+}
+
+#[test]
+fn every_embedded_mission_reads_and_bears_its_name() {
+    for entry in EMBEDDED {
+        let mission = entry.mission().unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(mission.name, entry.name);
+        assert!(mission.sensors.see_the_target());
+    }
+    let error = embedded("leo_vent").unwrap_err().to_string();
+    assert!(error.contains("leo_vent") && error.contains("leo_venting"), "{error}");
+}
+
+#[test]
+fn a_mission_written_out_reads_back_as_the_same() {
+    for entry in EMBEDDED {
+        let mission = entry.mission().unwrap();
+        let text = mission.to_toml().unwrap();
+        assert_eq!(
+            Mission::parse("again", &text).unwrap_or_else(|e| panic!("{e}\n{text}")),
+            mission
+        );
+    }
+}
+
+#[test]
+fn every_problem_is_named_with_its_place_and_what_is_allowed() {
+    // (what stands there, what takes its place, what the message must hold)
+    let cases = [
+        (
+            "grid_s = 1.0",
+            "grid = 1.0",
+            vec!["unknown key `grid`", "did you mean `grid_s`"],
+        ),
+        (
+            "period_s = 600.0",
+            "periot_s = 600.0",
+            vec!["unknown key `periot_s`", "did you mean `period_s`"],
+        ),
+        (
+            "duration_s = 5680.0",
+            "duration_s = \"long\"",
+            vec!["invalid type: string \"long\"", "expected f64"],
+        ),
+        (
+            "sigma_range_m = 0.08",
+            "sigma_range_m = -0.08",
+            vec!["sensors.lidar.sigma_range_m = -0.08", "at least 0 m"],
+        ),
+        (
+            "sigma_range_m = 0.08",
+            "sigma_range_m = nan",
+            vec!["sensors.lidar.sigma_range_m = NaN", "finite"],
+        ),
+        (
+            "a_m = 6.878e6",
+            "a_m = 6.0e6",
+            vec!["below the surface at 6.378", "periapsis"],
+        ),
+        (
+            "start_s = 5560.0",
+            "start_s = 5660.0",
+            vec!["burn \"capture\" ends at 5690 s", "after the run"],
+        ),
+        (
+            "period_s = 600.0",
+            "period_s = 900.0",
+            vec!["vent \"co2\"", "after the run"],
+        ),
+        ("mission = 1", "mission = 2", vec!["newer format", "at most 1"]),
+        (
+            "after = \"co2\"",
+            "after = \"oxygen\"",
+            vec!["comes after \"oxygen\"", "stands above"],
+        ),
+        (
+            "{ half_normal = 1.7094e-5 }",
+            "{ half_norm = 1.7e-5 }",
+            vec!["unknown value `half_norm`", "`half_normal`"],
+        ),
+        (
+            "{ half_normal = 1.7094e-5 }",
+            "\"large\"",
+            vec!["half_normal", "a number in m/s2"],
+        ),
+        (
+            "model = \"zonal\"",
+            "model = \"zonals\"",
+            vec!["unknown value `zonals`", "`zonal`"],
+        ),
+        (
+            "direction = [-1.0, -1.0, 0.0]",
+            "direction = [0, 0, 0]",
+            vec!["burn.capture.direction is zero"],
+        ),
+        (
+            "at = \"end\"",
+            "at = \"sometime\"",
+            vec!["unknown value `sometime`", "start"],
+        ),
+    ];
+    for (from, to, expected) in cases {
+        let error = changed(from, to).unwrap_err().to_string();
+        for part in expected {
+            assert!(error.contains(part), "{part:?} is missing in: {error}");
+        }
+        let at = format!("leo.toml:{}:", line(LEO, from));
+        assert!(error.contains(&at), "{at} is missing in: {error}");
+    }
+}
+
+#[test]
+fn sensors_that_observe_nothing_are_refused() {
+    let begin = LEO.find("[sensors.lidar]").unwrap();
+    let end = LEO.find("[sensors.accelerometer]").unwrap();
+    let blind = format!("{}{}", &LEO[..begin], &LEO[end..]);
+    let error = Mission::parse("blind.toml", &blind).unwrap_err().to_string();
+    assert!(
+        error.contains("no sensor sees the target") && error.contains("[sensors.lidar]"),
+        "{error}"
+    );
+}
+
+#[test]
+fn all_problems_are_told_at_once() {
+    let text = LEO.replace("sigma_range_m = 0.08", "sigma_range_m = -1.0").replace(
+        "acceleration_m_s2 = 1.0e-2\ndirection = [-1.0, -1.0, 0.0]",
+        "acceleration_m_s2 = 1.0e-2\ndirection = [0, 0, 0]",
+    );
+    let MissionError::Invalid(problems) = Mission::parse("two.toml", &text).unwrap_err() else {
+        panic!()
+    };
+    assert_eq!(problems.len(), 2, "{problems:?}");
+    assert!(problems.iter().all(|p| p.place.is_some()));
+}
+
+#[test]
+fn any_key_can_be_set_and_comments_stay() {
+    let mut document = Document::parse("leo", LEO).unwrap();
+    for (key, value) in [
+        ("vent.co2.period_s", "300"),
+        ("vent.waste_water.first_s", "900.0"),
+        ("burn.1.duration_s", "20"),
+        ("time.epoch_utc", "2030-01-01T00:00:00"),
+        ("environment.gravity.mu_m3_s2", "3.9e14"),
+        ("sensors.radio.sigma_range_m", "2.0"),
+        ("navigation.law.snc.q", "1e-5"),
+    ] {
+        document.set(key, value).unwrap_or_else(|e| panic!("{e}"));
+    }
+    let mission = document.mission().unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(mission.vents[0].period_s, Some(300.0));
+    assert_eq!(mission.vents[1].first_s, First::At(900.0));
+    assert!((mission.burns[0].duration_s - 20.0).abs() < 1e-15);
+    assert_eq!(mission.time.epoch_utc.as_deref(), Some("2030-01-01T00:00:00"));
+    let Gravity::Zonal(gravity) = &mission.environment.gravity else {
+        panic!()
+    };
+    assert!((gravity.mu_m3_s2 - 3.9e14).abs() < 1.0);
+    assert!(mission.sensors.radio.is_some());
+    assert_eq!(mission.navigation.law.get("snc.q"), Some(&1e-5));
+    assert!(
+        document
+            .text()
+            .contains("# the run ends with the rendezvous (Sec. IV.A)")
+    );
+
+    let error = document.set("vent.oxygen.count", "2").unwrap_err().to_string();
+    assert!(
+        error.contains("mission.vent.oxygen.count") && error.contains("co2, waste_water"),
+        "{error}"
+    );
+    document.set("time.duratoin_s", "1").unwrap();
+    let error = document.mission().unwrap_err().to_string();
+    assert!(error.contains("did you mean `duration_s`"), "{error}");
+}
+
+#[test]
+fn files_are_read_from_their_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.toml");
+    std::fs::write(&path, LEO).unwrap();
+    let mission = Mission::read(&path).unwrap();
+    assert_eq!(mission.locate("field.csv".as_ref()), folder.path().join("field.csv"));
+    let error = Mission::read(&folder.path().join("none.toml")).unwrap_err().to_string();
+    assert!(error.contains("none.toml"), "{error}");
+}
+
+#[test]
+fn the_filter_is_told_its_own_gravity_and_the_sensors_noise() {
+    let mission = embedded("formation").unwrap().mission().unwrap();
+    let told = mission.navigation();
+    assert!(matches!(told.gravity, Gravity::Zonal(_)));
+    assert!((told.p0.position - 1e-2).abs() < 1e-18 && (told.p0.acceleration - 1.5e-6).abs() < 1e-20);
+    let own = embedded("leo_venting").unwrap().mission().unwrap().navigation();
+    let lidar = own.lidar.unwrap();
+    assert!((lidar.sigma_angle_rad - 0.04_f64.to_radians()).abs() < 1e-18 && (lidar.period_s - 1.0).abs() < 1e-15);
+    assert!(own.told.is_empty());
+}
+
+#[test]
+fn schema_knows_every_section() {
+    let schema = schema();
+    for key in [
+        "grid_s",
+        "half_normal",
+        "field_of_view_deg",
+        "disturbance_m_s2",
+        "back_propagated",
+    ] {
+        assert!(schema.contains(key), "{key}");
+    }
+}
