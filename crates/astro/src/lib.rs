@@ -5,6 +5,7 @@
 //! Start reading at [`ZonalGravity`]; what is known of the central body is in [`bodies`], two satellites are in [`relative`].
 
 pub mod atmosphere;
+pub mod attitude;
 pub mod bodies;
 mod clohessy_wiltshire;
 pub mod cr3bp;
@@ -19,6 +20,7 @@ pub mod moon_rotation;
 pub mod precession;
 pub mod radiation;
 pub mod relative;
+pub mod relative_axes;
 mod relative_j2;
 pub mod sun_moon;
 mod zonal;
@@ -26,10 +28,11 @@ mod zonal;
 pub use atmosphere::Atmosphere;
 pub use bodies::{CentralBody, ThirdBody, UniformRotation};
 pub use clohessy_wiltshire::ClohessyWiltshire;
-pub use cr3bp::Cr3bp;
+pub use cr3bp::{Cr3bp, Cr3bpSystem};
 pub use elements::Elements;
 pub use error::AstroError;
 pub use harmonics::{Coefficients, FieldError, SphericalHarmonics};
 pub use relative::Lvlh;
+pub use relative_axes::RelativeAxes;
 pub use relative_j2::{J2RelativeMotion, TargetOrbit};
 pub use zonal::ZonalGravity;
