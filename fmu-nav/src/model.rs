@@ -65,13 +65,13 @@ impl Model for NavModel {
             license: "MIT",
             default_stop: SCENARIOS.first().map_or(1.0, |s| s.duration),
             default_step: 1.0,
-            vendor_annotations: vec![VendorAnnotation {
-                tool: "trade-harness",
-                content: Element::new("Filters")
+            vendor_annotations: vec![VendorAnnotation::new(
+                "trade-harness",
+                Element::new("Filters")
                     .child(presets())
                     .child(searches())
                     .child(meaning()),
-            }],
+            )],
             ..ModelInfo::default()
         })
     }

@@ -19,6 +19,13 @@ macro_rules! export_fmu {
     ($model:ty) => {
         type Fmi2ExportedModel = $model;
 
+        impl $crate::Exported for $model {
+            fn guid_cell() -> &'static $crate::GuidCell {
+                static CELL: $crate::GuidCell = $crate::GuidCell::new();
+                &CELL
+            }
+        }
+
         /// The functions of FMI 2.0, under their C names.
         #[allow(unsafe_code, missing_docs, non_snake_case)]
         #[allow(clippy::missing_safety_doc, clippy::too_many_arguments)]

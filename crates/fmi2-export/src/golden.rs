@@ -4,9 +4,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use fmi_model::{DefinitionError, Model};
+
 use crate::description::render;
-use crate::model::Model;
-use crate::table::DefinitionError;
 
 /// Set to `1`, this environment variable makes [`golden_check`] rewrite the file.
 const UPDATE: &str = "UPDATE_GOLDEN";

@@ -12,31 +12,25 @@
 
 #[doc(hidden)]
 pub mod boundary;
-mod check;
 mod description;
 mod error;
 mod export;
 mod golden;
-mod guard;
+mod identity;
 mod instance;
 mod log;
-mod model;
 mod order;
-mod snapshot;
-mod table;
-mod unit;
-mod xml;
 
 /// What [`export_fmu!`] refers to.
 #[doc(hidden)]
 pub use fmi2_abi as abi;
 
 pub use description::{guid, render};
-pub use golden::{GoldenError, golden_check};
-pub use log::{Category, Log};
-pub use model::{Experiment, Model, ModelError, ModelInfo, VendorAnnotation};
-pub use table::{
-    Access, Boolean, Bounds, Causality, DefinitionError, Enumeration, EnumerationItem, EnumerationType, Integer, Kind,
-    Real, Row, Scalar, Table, TableBuilder, Text, Typed, Variability, Variable,
+pub use fmi_model::{
+    Access, Boolean, Bounds, Category, Causality, DefinitionError, Element, Entry, Enumeration, EnumerationItem,
+    EnumerationType, Experiment, Integer, Kind, Log, Model, ModelError, ModelInfo, Real, Row, Scalar, Shape, Table,
+    TableBuilder, Text, Typed, Variability, Variable, VendorAnnotation,
 };
-pub use xml::Element;
+pub use golden::{GoldenError, golden_check};
+#[doc(hidden)]
+pub use identity::{Exported, GuidCell};

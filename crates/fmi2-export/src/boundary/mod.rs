@@ -22,11 +22,11 @@ mod states;
 mod steps;
 mod values;
 
+use fmi_model::guarded;
 use fmi2_abi::{Fmi2Component, Fmi2Status, RawStatus};
 
-use crate::guard::guarded;
+use crate::identity::Exported;
 use crate::instance::{Answer, Instance};
-use crate::model::Model;
 use crate::order::Function;
 use handle::Handle;
 
@@ -41,7 +41,7 @@ pub use values::*;
 ///
 /// # Safety
 /// See the module.
-unsafe fn call<M: Model>(
+unsafe fn call<M: Exported>(
     component: Fmi2Component,
     function: &Function,
     body: impl FnOnce(&mut Instance<M>) -> Answer,

@@ -2,19 +2,18 @@
 
 use std::ffi::CString;
 
+use fmi_model::{Checked, Scalar};
 use fmi2_abi::{
     FMI2_FALSE, FMI2_TRUE, Fmi2Boolean, Fmi2Component, Fmi2Integer, Fmi2Real, Fmi2String, Fmi2ValueReference, RawStatus,
 };
 
 use super::{call, memory};
-use crate::check::Checked;
 use crate::error::CallError;
-use crate::model::Model;
+use crate::identity::Exported;
 use crate::order::{self, Function};
-use crate::table::Scalar;
 
 /// Reads variables whose values are `T` in Rust and `C` in C.
-unsafe fn get<M: Model, T: Scalar, C>(
+unsafe fn get<M: Exported, T: Scalar, C>(
     component: Fmi2Component,
     function: &Function,
     references: *const Fmi2ValueReference,
@@ -35,7 +34,7 @@ unsafe fn get<M: Model, T: Scalar, C>(
 }
 
 /// Sets variables whose values are `T` in Rust and `C` in C.
-unsafe fn set<M: Model, T: Checked, C: Copy>(
+unsafe fn set<M: Exported, T: Checked, C: Copy>(
     component: Fmi2Component,
     function: &Function,
     references: *const Fmi2ValueReference,
@@ -53,7 +52,7 @@ unsafe fn set<M: Model, T: Checked, C: Copy>(
     }
 }
 
-pub unsafe fn get_real<M: Model>(
+pub unsafe fn get_real<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -64,7 +63,7 @@ pub unsafe fn get_real<M: Model>(
 }
 
 /// Enumerations are read here, too.
-pub unsafe fn get_integer<M: Model>(
+pub unsafe fn get_integer<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -74,7 +73,7 @@ pub unsafe fn get_integer<M: Model>(
     unsafe { get::<M, i32, _>(component, &order::GET_INTEGER, references, count, values, |value| value) }
 }
 
-pub unsafe fn get_boolean<M: Model>(
+pub unsafe fn get_boolean<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -89,7 +88,7 @@ pub unsafe fn get_boolean<M: Model>(
 }
 
 /// The strings belong to the instance and hold until the next `fmi2GetString` on it.
-pub unsafe fn get_string<M: Model>(
+pub unsafe fn get_string<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -107,7 +106,7 @@ pub unsafe fn get_string<M: Model>(
     }
 }
 
-pub unsafe fn set_real<M: Model>(
+pub unsafe fn set_real<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -118,7 +117,7 @@ pub unsafe fn set_real<M: Model>(
 }
 
 /// Enumerations are set here, too.
-pub unsafe fn set_integer<M: Model>(
+pub unsafe fn set_integer<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -129,7 +128,7 @@ pub unsafe fn set_integer<M: Model>(
 }
 
 /// Any value but 0 is true, as in C.
-pub unsafe fn set_boolean<M: Model>(
+pub unsafe fn set_boolean<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -143,7 +142,7 @@ pub unsafe fn set_boolean<M: Model>(
     }
 }
 
-pub unsafe fn set_string<M: Model>(
+pub unsafe fn set_string<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
