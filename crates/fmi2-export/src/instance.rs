@@ -117,12 +117,13 @@ impl<M: Model> Instance<M> {
         let status = self.get(references, |_, value: String| values.push(value))?;
         let mut texts = Vec::with_capacity(values.len());
         for (value, reference) in values.into_iter().zip(references) {
-            texts.push(CString::new(value).or_else(|_| {
+            let unfit = |_| {
                 let name = M::table().entry(*reference).map(|entry| entry.name().into_owned());
-                Err(CallError::NulInText {
+                CallError::NulInText {
                     name: name.unwrap_or_default(),
-                })
-            })?);
+                }
+            };
+            texts.push(CString::new(value).map_err(unfit)?);
         }
         self.texts = texts;
         for (place, text) in self.texts.iter().enumerate() {

@@ -23,7 +23,7 @@ mod xml;
 
 pub use description::{
     BaseUnit, Causality, CoSimulation, DefaultExperiment, DisplayUnit, EnumerationItem, EnumerationType, Initial,
-    LogCategory, Meaning, ModelDescription, Preset, Search, Unit, Variability, Variable, VariableKind,
+    LogCategory, ModelDescription, Unit, Variability, Variable, VariableKind, VendorAnnotation,
 };
 pub use error::ImportError;
 pub use fmi2_abi::Fmi2Status;

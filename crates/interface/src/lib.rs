@@ -2,3 +2,5 @@
 //! quantities cross between models, what a status means and which values are accepted.
 //!
 //! Nothing here computes motion, estimates or statistics.
+
+pub mod annotation;
