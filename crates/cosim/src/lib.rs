@@ -18,5 +18,5 @@ pub use fmi2_import::{BaseType, Causality, Experiment, Value};
 pub use fmu::FmuSlave;
 pub use master::{Isolated, OnSlaveError, RunOptions, RunReport, Scheme, SlaveTiming, StepContext};
 pub use probe::Probe;
-pub use slave::{Port, Slave};
-pub use system::{SlaveId, System, UnconnectedInput};
+pub use slave::{Port, Slave, SlaveId};
+pub use system::{System, UnconnectedInput};

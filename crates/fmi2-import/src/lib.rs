@@ -6,17 +6,20 @@
 //! Start with [`Fmu::open`]; its [`ModelDescription`] answers questions without loading anything, and
 //! [`Fmu::instantiate`] gives an [`Instance`] to drive. `examples/inspect.rs` shows the first half.
 
-// The loaded library is C: calling it needs `unsafe`, which stays in `library`, `instance` and `logger`.
+// The loaded library is C: calling it needs `unsafe`, which stays in `library`, `instance`, `handles` and `logger`.
 #![allow(unsafe_code)]
 
 mod archive;
 mod description;
 mod error;
 mod fmu;
+mod handles;
 mod instance;
 mod library;
 mod logger;
+mod notation;
 mod platform;
+mod status;
 mod suggestion;
 mod value;
 mod xml;
@@ -28,8 +31,10 @@ pub use description::{
 pub use error::ImportError;
 pub use fmi2_abi::Fmi2Status;
 pub use fmu::Fmu;
-pub use instance::{Experiment, FmuState, Instance, Outcome, Status};
+pub use handles::FmuState;
+pub use instance::{Experiment, Instance, Outcome};
 pub use logger::LogMessage;
 pub use platform::{LIBRARY_SUFFIX, PLATFORM};
+pub use status::Status;
 pub use suggestion::suggest;
 pub use value::{BaseType, Value};

@@ -6,11 +6,12 @@ use std::ptr;
 use fmi_model::{Experiment, Wanted, braced, guarded};
 use fmi2_abi::{
     FMI_VERSION, Fmi2Boolean, Fmi2CallbackFunctions, Fmi2Component, Fmi2Real, Fmi2Status, Fmi2String, Fmi2Type,
-    RawStatus, TYPES_PLATFORM,
+    RawStatus, TYPES_PLATFORM, truth,
 };
 
+use super::call::call;
 use super::handle::Handle;
-use super::{call, memory};
+use super::memory;
 use crate::error::CallError;
 use crate::identity::{Exported, own_guid};
 use crate::instance::Instance;
@@ -38,7 +39,7 @@ pub unsafe fn set_debug_logging<M: Exported>(
                 .iter()
                 .map(|category| memory::text("categories", *category))
                 .collect::<Result<Vec<_>, _>>()?;
-            instance.set_debug_logging(logging_on != 0, &categories)
+            instance.set_debug_logging(truth(logging_on), &categories)
         })
     }
 }
@@ -69,7 +70,7 @@ pub unsafe fn instantiate<M: Exported>(
     let created = guarded(|| {
         // SAFETY: `name` and `guid` are strings; see the module.
         let (name, guid) = unsafe { (memory::text("instanceName", name), memory::text("fmuGUID", guid)) };
-        let created = create::<M>(name, fmu_type, guid, logging_on != 0, &sink);
+        let created = create::<M>(name, fmu_type, guid, truth(logging_on), &sink);
         created.map_err(|error| error.chain())
     });
     let (status, reason) = match created {
@@ -142,8 +143,8 @@ pub unsafe fn setup_experiment<M: Exported>(
 ) -> RawStatus {
     let experiment = Experiment {
         start_time,
-        stop_time: (stop_time_defined != 0).then_some(stop_time),
-        tolerance: (tolerance_defined != 0).then_some(tolerance),
+        stop_time: truth(stop_time_defined).then_some(stop_time),
+        tolerance: truth(tolerance_defined).then_some(tolerance),
     };
     // SAFETY: see the module.
     unsafe {

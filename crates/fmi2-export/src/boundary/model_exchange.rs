@@ -2,7 +2,7 @@
 
 use fmi2_abi::{Fmi2Boolean, Fmi2Component, Fmi2EventInfo, Fmi2Real, RawStatus};
 
-use super::call;
+use super::call::call;
 use crate::error::CallError;
 use crate::identity::Exported;
 use crate::order::{self, Function};

@@ -5,8 +5,9 @@ use std::ptr;
 use fmi_model::Snapshot;
 use fmi2_abi::{Fmi2Byte, Fmi2Component, Fmi2FmuState, Fmi2Status, RawStatus};
 
+use super::call::call;
 use super::handle::SavedState;
-use super::{call, memory};
+use super::memory;
 use crate::error::CallError;
 use crate::identity::{Exported, own_guid, seal};
 use crate::order;

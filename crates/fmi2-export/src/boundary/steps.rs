@@ -3,11 +3,12 @@
 use std::ffi::c_int;
 
 use fmi2_abi::{
-    FMI2_FALSE, FMI2_TRUE, Fmi2Boolean, Fmi2Component, Fmi2Integer, Fmi2Real, Fmi2Status, Fmi2StatusKind, Fmi2String,
-    Fmi2ValueReference, RawStatus,
+    Fmi2Boolean, Fmi2Component, Fmi2Integer, Fmi2Real, Fmi2Status, Fmi2StatusKind, Fmi2String, Fmi2ValueReference,
+    RawStatus, boolean,
 };
 
-use super::{call, memory};
+use super::call::call;
+use super::memory;
 use crate::error::CallError;
 use crate::identity::Exported;
 use crate::instance::{Instance, not_available};
@@ -82,8 +83,7 @@ pub unsafe fn get_boolean_status<M: Exported>(
     // SAFETY: see the module.
     unsafe {
         status::<M, _>(component, &order::GET_BOOLEAN_STATUS, kind, value, |instance, kind| {
-            let value = instance.boolean_status(kind)?;
-            Ok(if value { FMI2_TRUE } else { FMI2_FALSE })
+            instance.boolean_status(kind).map(boolean)
         })
     }
 }

@@ -4,10 +4,11 @@ use std::ffi::CString;
 
 use fmi_model::{Checked, Scalar};
 use fmi2_abi::{
-    FMI2_FALSE, FMI2_TRUE, Fmi2Boolean, Fmi2Component, Fmi2Integer, Fmi2Real, Fmi2String, Fmi2ValueReference, RawStatus,
+    Fmi2Boolean, Fmi2Component, Fmi2Integer, Fmi2Real, Fmi2String, Fmi2ValueReference, RawStatus, boolean, truth,
 };
 
-use super::{call, memory};
+use super::call::call;
+use super::memory;
 use crate::error::CallError;
 use crate::identity::Exported;
 use crate::order::{self, Function};
@@ -80,11 +81,7 @@ pub unsafe fn get_boolean<M: Exported>(
     values: *mut Fmi2Boolean,
 ) -> RawStatus {
     // SAFETY: see the module.
-    unsafe {
-        get::<M, bool, _>(component, &order::GET_BOOLEAN, references, count, values, |value| {
-            if value { FMI2_TRUE } else { FMI2_FALSE }
-        })
-    }
+    unsafe { get::<M, bool, _>(component, &order::GET_BOOLEAN, references, count, values, boolean) }
 }
 
 /// The strings belong to the instance and hold until the next `fmi2GetString` on it.
@@ -135,11 +132,7 @@ pub unsafe fn set_boolean<M: Exported>(
     values: *const Fmi2Boolean,
 ) -> RawStatus {
     // SAFETY: see the module.
-    unsafe {
-        set::<M, bool, _>(component, &order::SET_BOOLEAN, references, count, values, |value| {
-            value != FMI2_FALSE
-        })
-    }
+    unsafe { set::<M, bool, _>(component, &order::SET_BOOLEAN, references, count, values, truth) }
 }
 
 pub unsafe fn set_string<M: Exported>(
