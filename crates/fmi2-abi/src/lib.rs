@@ -1,9 +1,8 @@
-//! C types, status codes and function signatures of FMI 2.0, platform `default`, as Rust sees them.
+#![doc = include_str!("../README.md")]
 //!
-//! Here: what `fmi2TypesPlatform.h`, `fmi2FunctionTypes.h` and `fmi2Functions.h` of FMI 2.0.3 declare, for exporters and
-//! importers alike. Not here: any behaviour; see `fmi2-export` and `fmi2-import`.
+//! # Where to start
 //!
-//! Start with [`types`]; [`functions`] holds one pointer type for each function of the standard. An integer that comes from
+//! With [`types`]; [`functions`] holds one pointer type for each function of the standard. An integer that comes from
 //! the other side of the boundary is never trusted to be an enum: it arrives as a [`RawStatus`] or [`c_int`](std::ffi::c_int)
 //! and is read by `from_raw`.
 

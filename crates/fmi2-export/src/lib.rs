@@ -1,14 +1,9 @@
-//! Turns a Rust model and its variable table into an FMI 2.0 co-simulation slave.
+#![doc = include_str!("../README.md")]
 //!
-//! Here: the [`Model`] trait, the [`Table`] of variables, the rendering of `modelDescription.xml`, the call-order state machine,
-//! the panic guard, saved states, and [`export_fmu!`], which gives a `cdylib` every function of the standard. Not here: any
-//! physics, packing into a `.fmu` file, and the host's side of the interface.
+//! # Where to start
 //!
-//! Start with [`Model`] and [`TableBuilder`]; a model crate needs those two, [`golden_check`] in a test, and one line:
-//!
-//! ```ignore
-//! fmi2_export::export_fmu!(NavModel);
-//! ```
+//! A model crate needs [`Model`], [`TableBuilder`], [`golden_check`] in a test, and one line of [`export_fmu!`]. Inside,
+//! `boundary` holds the C functions, `order` says when each may be called, `instance` what it does, and `description` renders.
 
 #[doc(hidden)]
 pub mod boundary;

@@ -1,10 +1,9 @@
-//! Opens, checks, loads and drives FMI 2.0 co-simulation FMUs.
+#![doc = include_str!("../README.md")]
 //!
-//! Here: unzipping, reading `modelDescription.xml`, loading the library of this platform, and a safe handle for each
-//! instance. Not here: what several slaves do together (`cosim`), or writing FMUs (`fmi2-export`).
+//! # Where to start
 //!
-//! Start with [`Fmu::open`]; its [`ModelDescription`] answers questions without loading anything, and
-//! [`Fmu::instantiate`] gives an [`Instance`] to drive. `examples/inspect.rs` shows the first half.
+//! With [`Fmu::open`]: its [`ModelDescription`] answers questions without loading anything, and [`Fmu::instantiate`] gives an
+//! [`Instance`] to drive.
 
 // The loaded library is C: calling it needs `unsafe`, which stays in `library`, `instance`, `handles` and `logger`.
 #![allow(unsafe_code)]
