@@ -140,7 +140,7 @@ mod tests {
 
     /// Test vectors of the FNV authors.
     #[test]
-    fn fnv1a_agrees_with_published_vectors() {
+    fn val_fnv1a_published_vectors() {
         assert_eq!(fnv1a(b""), 0xcbf2_9ce4_8422_2325);
         assert_eq!(fnv1a(b"a"), 0xaf63_dc4c_8601_ec8c);
         assert_eq!(fnv1a(b"foobar"), 0x8594_4171_f739_67e8);

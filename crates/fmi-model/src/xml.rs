@@ -91,11 +91,10 @@ impl Element {
             return Err(malformed(&reader, reason));
         }
         let mut roots = open.pop().map(|document| document.children).unwrap_or_default();
-        match (roots.pop(), roots.len()) {
-            (Some(root), 0) => Ok(root),
-            (_, others) => Err(XmlError::Roots {
-                count: others + usize::from(others > 0),
-            }),
+        let count = roots.len();
+        match roots.pop() {
+            Some(root) if count == 1 => Ok(root),
+            _ => Err(XmlError::Roots { count }),
         }
     }
 

@@ -1,10 +1,7 @@
 //! The macro that gives a library its C functions.
 
-/// Exports every function of FMI 2.0 for a [`Model`](crate::Model), in a module `fmi2`. One per library.
-///
-/// ```ignore
-/// fmi2_export::export_fmu!(NavModel);
-/// ```
+/// Exports every function of FMI 2.0 for a [`Model`](crate::Model), in a module `fmi2`. One per library, at its top:
+/// `export_fmu!(NavModel);`.
 ///
 /// The functions only forward; see [`Model`](crate::Model) for what reaches the model. For the host:
 ///
