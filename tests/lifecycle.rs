@@ -10,6 +10,7 @@ mod common;
 use common::fmi::{FROM_ZERO, bits, get, initialise, names, set, step};
 use common::{fmu, repacked};
 use fmi2_import::{Causality, Experiment, Fmi2Status, Fmu, ImportError, Instance, Status, Value};
+use interface::annotation::{self, Filters};
 use std::sync::{Arc, LazyLock};
 
 /// Length of a run, in steps of [`H`]: MILTON's buffer of 30 samples fills and adapts.
@@ -23,6 +24,9 @@ fn time(k: usize) -> f64 {
 
 static TRUTH: LazyLock<Arc<Fmu>> = LazyLock::new(|| Arc::new(Fmu::open(fmu("fmu-truth")).unwrap()));
 static NAV: LazyLock<Arc<Fmu>> = LazyLock::new(|| Arc::new(Fmu::open(fmu("fmu-nav")).unwrap()));
+/// What fmu-nav tells of its filters.
+static TOLD: LazyLock<Filters> =
+    LazyLock::new(|| Filters::read(NAV.description().annotations(annotation::TOOL)).unwrap());
 
 fn texts(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
     pairs
@@ -39,7 +43,7 @@ fn items(name: &str) -> impl Iterator<Item = &str> {
 
 /// Filters that have a meaning in a scenario.
 fn filters(scenario: &str) -> impl Iterator<Item = &str> {
-    items("filter").filter(move |filter| NAV.description().without_meaning(filter, scenario).is_none())
+    items("filter").filter(move |filter| TOLD.without_meaning(filter, scenario).is_none())
 }
 
 /// Noise, faults and a push of the target, so that every random stream and every latch is in use.
@@ -134,17 +138,17 @@ fn cases(scenario: &str) -> Vec<Case> {
 
     let mut cases = vec![truth];
     for filter in filters(scenario) {
-        let presets = NAV.description().presets.iter().filter(|p| p.filter == filter);
-        let bare = ("paper", [].as_slice());
-        let sets = presets
-            .map(|p| (p.name.as_str(), p.sets.as_slice()))
-            .filter(|(name, _)| *name != "paper");
+        let bare = ("paper", Vec::new());
+        let sets = TOLD.presets_of(filter).filter(|p| p.name != "paper").map(|p| {
+            let sets = p.sets.iter().map(|s| (s.variable.clone(), s.value.clone()));
+            (p.name.as_str(), sets.collect())
+        });
         for (name, tunables) in std::iter::once(bare).chain(sets) {
             let chosen = texts(&[("scenario", scenario), ("run", "3"), ("filter", filter)]);
             cases.push(Case {
                 label: format!("{scenario} {filter}@{name}"),
                 fmu: NAV.clone(),
-                parameters: [&chosen, tunables].concat(),
+                parameters: [chosen, tunables].concat(),
                 script: measured.clone(),
             });
         }

@@ -6,7 +6,8 @@ use filters::laws::FILTERS;
 use filters::scenarios::{Measures, SCENARIOS};
 use filters::state::State;
 use filters::{Navigator, Sample, Settings, Status};
-use fmi2_export::{Element, Experiment, Log, Model, ModelError, ModelInfo, Table, VendorAnnotation};
+use fmi2_export::{Experiment, Log, Model, ModelError, ModelInfo, Table, VendorAnnotation};
+use interface::annotation::{self, Filters, Only, Preset, Search, Set};
 use nalgebra::{Matrix3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
@@ -65,13 +66,7 @@ impl Model for NavModel {
             license: "MIT",
             default_stop: SCENARIOS.first().map_or(1.0, |s| s.duration),
             default_step: 1.0,
-            vendor_annotations: vec![VendorAnnotation {
-                tool: "trade-harness",
-                content: Element::new("Filters")
-                    .child(presets())
-                    .child(searches())
-                    .child(meaning()),
-            }],
+            vendor_annotations: vec![VendorAnnotation::of(annotation::TOOL, &annotated())],
             ..ModelInfo::default()
         })
     }
@@ -155,59 +150,42 @@ fn status_name(status: Status) -> &'static str {
         .map_or("", |(_, name)| name)
 }
 
-/// The filters that have a meaning in some scenarios only, for `trade-harness`.
-fn meaning() -> Element {
-    let mut all = Element::new("Meaning");
+/// What the harness is told: presets, search ranges, and the filters that have a meaning in some scenarios only.
+fn annotated() -> Filters {
+    let mut all = Filters::default();
     for filter in FILTERS {
-        if let Some(only) = &filter.only {
-            let scenarios = SCENARIOS.iter().filter(|s| filter.no_meaning_in(s).is_none());
-            let names: Vec<&str> = scenarios.map(|s| s.name).collect();
-            all = all.child(
-                Element::new("Only")
-                    .attribute("filter", filter.name)
-                    .attribute("scenarios", names.join(","))
-                    .attribute("why", only.why),
-            );
-        }
-    }
-    all
-}
-
-/// The named parameter sets of every filter, for `trade-harness`.
-fn presets() -> Element {
-    let mut all = Element::new("Presets");
-    for filter in FILTERS {
-        for preset in filter.presets {
-            let mut element = Element::new("Preset")
-                .attribute("filter", filter.name)
-                .attribute("name", preset.name)
-                .attribute("about", preset.about);
-            for (tunable, value) in preset.sets {
-                let variable = format!("{}.{}", filter.name, tunable);
-                element = element.child(
-                    Element::new("Set")
-                        .attribute("variable", variable)
-                        .attribute("value", *value),
-                );
+        let variable = |tunable: &str| format!("{}.{tunable}", filter.name);
+        all.presets.extend(filter.presets.iter().map(|preset| {
+            Preset {
+                filter: filter.name.to_owned(),
+                name: preset.name.to_owned(),
+                about: preset.about.to_owned(),
+                sets: preset
+                    .sets
+                    .iter()
+                    .map(|(tunable, value)| Set {
+                        variable: variable(tunable),
+                        value: (*value).to_owned(),
+                    })
+                    .collect(),
             }
-            all = all.child(element);
-        }
-    }
-    all
-}
-
-/// The ranges that a search for each filter's best tuning varies, for `trade-harness`.
-fn searches() -> Element {
-    let mut all = Element::new("Searches");
-    for filter in FILTERS {
-        for search in filter.search {
-            all = all.child(
-                Element::new("Search")
-                    .attribute("variable", format!("{}.{}", filter.name, search.tunable))
-                    .attribute("low", format!("{:?}", search.low))
-                    .attribute("high", format!("{:?}", search.high)),
-            );
-        }
+        }));
+        all.searches.extend(filter.search.iter().map(|search| Search {
+            variable: variable(search.tunable),
+            low: search.low,
+            high: search.high,
+        }));
+        all.meanings.extend(filter.only.iter().map(|only| {
+            Only {
+                filter: filter.name.to_owned(),
+                scenarios: SCENARIOS
+                    .iter()
+                    .filter(|scenario| filter.no_meaning_in(scenario).is_none())
+                    .map(|scenario| scenario.name.to_owned())
+                    .collect(),
+                why: only.why.to_owned(),
+            }
+        }));
     }
     all
 }

@@ -196,19 +196,13 @@ fn truth_row(t: &mut Builder, port: &'static Port) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fmi2_export::{Experiment, Log, Model, Typed};
+    use fmi2_export::{Experiment, Log, Model};
 
     /// Value of a Real variable.
     fn real(model: &TruthModel, name: &str) -> f64 {
         let table = TruthModel::table();
-        let variable = table
-            .find(name)
-            .and_then(|reference| table.variable(reference))
-            .unwrap();
-        let Typed::Real { access, .. } = &variable.typed else {
-            panic!("{name} is not Real")
-        };
-        access.read(model)
+        let entry = table.find(name).and_then(|number| table.entry(number)).unwrap();
+        entry.read(model).unwrap()
     }
 
     fn run(scenario: i32) -> TruthModel {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use cosim::{BaseType, CosimError};
 use fmi2_import::{Causality, ImportError};
+use interface::annotation::AnnotationError;
 use stats::StatsError;
 use thiserror::Error;
 
@@ -107,6 +108,14 @@ pub enum HarnessError {
         model: String,
         /// Variable.
         variable: String,
+    },
+    /// What an FMU tells the harness of its filters cannot be read.
+    #[error("{model}: {source}")]
+    Annotation {
+        /// Model name of the FMU.
+        model: String,
+        /// What is wrong.
+        source: AnnotationError,
     },
     /// A filter that cannot do anything sensible in a world.
     #[error("filter '{filter}' has no meaning in scenario '{scenario}': {why}; leave it out there")]

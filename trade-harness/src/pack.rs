@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use fmi2_import::{Causality, Fmu, LIBRARY_SUFFIX, ModelDescription, PLATFORM};
+use interface::annotation::Filters;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::HarnessError;
-use crate::models::{NAV, TRUTH};
+use crate::models::{NAV, TRUTH, filters_of};
 use crate::output::write_whole;
 
 /// Our FMUs: crate and model name, and the identifier that library and C functions go by.
@@ -210,7 +211,7 @@ fn documentation(name: &'static str, path: &Path, files: &BTreeMap<String, Vec<u
             name,
             source: Box::new(source),
         })?;
-    Ok(html(fmu.description()).into_bytes())
+    Ok(html(fmu.description(), &filters_of(fmu.description())?).into_bytes())
 }
 
 const STYLE: &str = "body{font:15px/1.5 sans-serif;margin:2em auto;max-width:70em;padding:0 1em}\
@@ -218,7 +219,7 @@ table{border-collapse:collapse}td,th{border-bottom:1px solid #ccc;padding:.2em .
 code{white-space:nowrap}";
 
 /// The page `documentation/index.html`: what the FMU is, its presets and its variables.
-fn html(d: &ModelDescription) -> String {
+fn html(d: &ModelDescription, filters: &Filters) -> String {
     let name = escape(&d.model_name);
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title><style>{STYLE}</style></head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n<p>FMI 2.0 co-simulation, version {}, licence {}.</p>\n",
@@ -226,13 +227,13 @@ fn html(d: &ModelDescription) -> String {
         escape(d.version.as_deref().unwrap_or("unknown")),
         escape(d.license.as_deref().unwrap_or("not stated")),
     );
-    if !d.presets.is_empty() {
+    if !filters.presets.is_empty() {
         page.push_str("<h2>Presets</h2>\n<table>\n<tr><th>preset</th><th>sets</th><th>meaning</th></tr>\n");
-        for p in &d.presets {
+        for p in &filters.presets {
             let sets: Vec<String> = p
                 .sets
                 .iter()
-                .map(|(n, v)| format!("<code>{}={}</code>", escape(n), escape(v)))
+                .map(|s| format!("<code>{}={}</code>", escape(&s.variable), escape(&s.value)))
                 .collect();
             let label = format!("{}@{}", p.filter, p.name);
             let cells = [

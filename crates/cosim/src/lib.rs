@@ -1,9 +1,9 @@
-//! Couples slaves by equal names and steps them on a fixed grid.
+#![doc = include_str!("../README.md")]
 //!
-//! Here: the [`Slave`] trait that FMUs and plain Rust mocks share, wiring by name, and a fixed-step master for both
-//! Gauss-Seidel and Jacobi coupling. Not here: loading FMUs (`fmi2-import`), or what to do with the results.
+//! # Where to start
 //!
-//! Start with [`System`]: add slaves, connect, run. The exchange of values is in `exchange`, the stepping in `master`.
+//! With [`System`]: add slaves, connect, run. The [`Slave`] trait is what FMUs and mocks share; the exchange of values is in
+//! `exchange`, the stepping in `master`.
 
 mod error;
 mod exchange;
@@ -18,5 +18,5 @@ pub use fmi2_import::{BaseType, Causality, Experiment, Value};
 pub use fmu::FmuSlave;
 pub use master::{Isolated, OnSlaveError, RunOptions, RunReport, Scheme, SlaveTiming, StepContext};
 pub use probe::Probe;
-pub use slave::{Port, Slave};
-pub use system::{SlaveId, System, UnconnectedInput};
+pub use slave::{Port, Slave, SlaveId};
+pub use system::{System, UnconnectedInput};

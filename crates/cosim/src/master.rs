@@ -206,7 +206,28 @@ struct Run {
     stopped: Option<CosimError>,
 }
 
-pub(crate) fn run<B>(
+impl System {
+    /// Runs the whole life cycle: setup, start values, initialization with an exchange of values in the order of the
+    /// slaves, steps, termination.
+    ///
+    /// `each` is called after initialization, when [`StepContext::step`] is 0, and after every step. It may end the run
+    /// with [`ControlFlow::Break`].
+    ///
+    /// A system runs once; call [`System::reset`] before another run.
+    ///
+    /// # Errors
+    /// [`CosimError::StepSize`] or [`CosimError::Interval`]; with [`crate::OnSlaveError::Stop`] also the
+    /// [`CosimError::Slave`] that ended the run.
+    pub fn run<B>(
+        &mut self,
+        options: &RunOptions,
+        each: impl FnMut(&mut StepContext<'_>) -> ControlFlow<B>,
+    ) -> Result<RunReport<B>, CosimError> {
+        run(self, options, each)
+    }
+}
+
+fn run<B>(
     system: &mut System,
     options: &RunOptions,
     mut each: impl FnMut(&mut StepContext<'_>) -> ControlFlow<B>,

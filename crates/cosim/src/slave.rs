@@ -4,6 +4,18 @@ use fmi2_import::{BaseType, Causality, Experiment};
 
 use crate::SlaveError;
 
+/// Names a slave of one [`System`](crate::System).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct SlaveId(pub(crate) usize);
+
+impl SlaveId {
+    /// Position in the order of adding, from 0.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0
+    }
+}
+
 /// A variable that can be wired, set or read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Port {

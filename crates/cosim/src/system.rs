@@ -2,25 +2,11 @@
 
 use std::collections::HashMap;
 use std::fmt;
-use std::ops::ControlFlow;
 
 use fmi2_import::{Causality, Value, suggest};
 
 use crate::exchange::Bundle;
-use crate::master::{self, RunOptions, RunReport, StepContext};
-use crate::{CosimError, Port, Probe, Slave};
-
-/// Names a slave of one [`System`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct SlaveId(pub(crate) usize);
-
-impl SlaveId {
-    /// Position in the order of adding, from 0.
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0
-    }
-}
+use crate::{CosimError, Port, Probe, Slave, SlaveId};
 
 /// An input that nothing feeds; it keeps its start value.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -252,25 +238,6 @@ impl System {
         self.members
             .get_mut(slave.0)
             .map_or_else(Vec::new, |m| m.slave.messages())
-    }
-
-    /// Runs the whole life cycle: setup, start values, initialization with an exchange of values in the order of the
-    /// slaves, steps, termination.
-    ///
-    /// `each` is called after initialization, when [`StepContext::step`] is 0, and after every step. It may end the run
-    /// with [`ControlFlow::Break`].
-    ///
-    /// A system runs once; call [`System::reset`] before another run.
-    ///
-    /// # Errors
-    /// [`CosimError::StepSize`] or [`CosimError::Interval`]; with [`crate::OnSlaveError::Stop`] also the
-    /// [`CosimError::Slave`] that ended the run.
-    pub fn run<B>(
-        &mut self,
-        options: &RunOptions,
-        each: impl FnMut(&mut StepContext<'_>) -> ControlFlow<B>,
-    ) -> Result<RunReport<B>, CosimError> {
-        master::run(self, options, each)
     }
 
     /// Brings every slave back to where it was when it was made. Wiring and start values stay.

@@ -1,9 +1,8 @@
-//! C types, status codes and function signatures of FMI 2.0, platform `default`, as Rust sees them.
+#![doc = include_str!("../README.md")]
 //!
-//! Here: what `fmi2TypesPlatform.h`, `fmi2FunctionTypes.h` and `fmi2Functions.h` of FMI 2.0.3 declare, for exporters and
-//! importers alike. Not here: any behaviour; see `fmi2-export` and `fmi2-import`.
+//! # Where to start
 //!
-//! Start with [`types`]; [`functions`] holds one pointer type for each function of the standard. An integer that comes from
+//! With [`types`]; [`functions`] holds one pointer type for each function of the standard. An integer that comes from
 //! the other side of the boundary is never trusted to be an enum: it arrives as a [`RawStatus`] or [`c_int`](std::ffi::c_int)
 //! and is read by `from_raw`.
 
@@ -23,7 +22,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn raw_values_are_those_of_the_c_headers() {
+    fn val_raw_values_of_the_c_headers() {
         for (raw, status) in [
             (0, Fmi2Status::Ok),
             (1, Fmi2Status::Warning),
@@ -49,6 +48,12 @@ mod tests {
     }
 
     #[test]
+    fn truth_values_cross_as_in_c() {
+        assert_eq!((boolean(false), boolean(true)), (FMI2_FALSE, FMI2_TRUE));
+        assert_eq!([0, 1, 2, -1].map(truth), [false, true, true, true]);
+    }
+
+    #[test]
     fn any_other_raw_value_is_none() {
         for raw in [-1, 6, 7, i32::MIN, i32::MAX] {
             assert_eq!(Fmi2Status::from_raw(raw), None);
@@ -59,7 +64,7 @@ mod tests {
 
     /// The C struct is five pointers in a row; a host of any language relies on that.
     #[test]
-    fn callback_functions_have_the_c_layout() {
+    fn val_callback_functions_have_the_c_layout() {
         let word = size_of::<usize>();
         assert_eq!(size_of::<Fmi2CallbackFunctions>(), 5 * word);
         assert_eq!(std::mem::offset_of!(Fmi2CallbackFunctions, logger), 0);

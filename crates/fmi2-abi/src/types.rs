@@ -39,6 +39,16 @@ pub const FMI2_TRUE: Fmi2Boolean = 1;
 /// `fmi2False`.
 pub const FMI2_FALSE: Fmi2Boolean = 0;
 
+/// A truth value as it crosses the boundary.
+pub const fn boolean(value: bool) -> Fmi2Boolean {
+    if value { FMI2_TRUE } else { FMI2_FALSE }
+}
+
+/// The truth value that arrived: any number but 0 is true, as in C.
+pub const fn truth(raw: Fmi2Boolean) -> bool {
+    raw != FMI2_FALSE
+}
+
 /// `fmi2Status` as it crosses the boundary: any integer, read by [`Fmi2Status::from_raw`].
 pub type RawStatus = c_int;
 

@@ -2,13 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use fmi_model::{
+    Category, Causality, DefinitionError, Element, Entry, EnumerationType, Model, ModelInfo, Table, Typed, Unit,
+    Variable, braced, number,
+};
 use uuid::Uuid;
-
-use crate::log::Category;
-use crate::model::{Model, ModelInfo};
-use crate::table::{Causality, DefinitionError, EnumerationType, Table, Typed, Variable, is_identifier};
-use crate::unit::Unit;
-use crate::xml::{Element, number};
 
 /// `modelDescription.xml` of `M`, the same text on every call and every machine.
 ///
@@ -16,7 +14,7 @@ use crate::xml::{Element, number};
 /// The first mistake in the table or in [`ModelInfo`].
 pub fn render<M: Model>() -> Result<String, DefinitionError> {
     let guid = braced(guid::<M>()?);
-    Ok(document(M::info(), M::table(), &guid).to_document())
+    Ok(document(M::info(), M::table(), &guid)?.to_document())
 }
 
 /// GUID of `M`: version 5 over its XML without GUID and its version. Any change to the interface changes it.
@@ -24,44 +22,16 @@ pub fn render<M: Model>() -> Result<String, DefinitionError> {
 /// # Errors
 /// The first mistake in the table or in [`ModelInfo`].
 pub fn guid<M: Model>() -> Result<Uuid, DefinitionError> {
-    if let Some(guid) = M::table().guid.get() {
-        return Ok(*guid);
-    }
-    check_info(M::info())?;
+    M::info().check()?;
     if let Some(defect) = M::table().defect() {
         return Err(defect.clone());
     }
-    let mut name = document(M::info(), M::table(), "").to_document();
+    let mut name = document(M::info(), M::table(), "")?.to_document();
     name.push_str(M::info().version);
-    let guid = Uuid::new_v5(&Uuid::NAMESPACE_OID, name.as_bytes());
-    Ok(*M::table().guid.get_or_init(|| guid))
+    Ok(Uuid::new_v5(&Uuid::NAMESPACE_OID, name.as_bytes()))
 }
 
-/// A GUID as FMI writes it.
-pub(crate) fn braced(guid: Uuid) -> String {
-    format!("{{{guid}}}")
-}
-
-fn check_info(info: &ModelInfo) -> Result<(), DefinitionError> {
-    if info.model_name.is_empty() {
-        return Err(DefinitionError::NoModelName);
-    }
-    if !is_identifier(info.model_identifier) {
-        return Err(DefinitionError::BadIdentifier {
-            identifier: info.model_identifier.to_owned(),
-        });
-    }
-    let positive = |seconds: f64| seconds.is_finite() && seconds > 0.0;
-    if !positive(info.default_stop) || !positive(info.default_step) {
-        return Err(DefinitionError::BadExperiment {
-            stop: info.default_stop,
-            step: info.default_step,
-        });
-    }
-    Ok(())
-}
-
-fn document<M>(info: &ModelInfo, table: &Table<M>, guid: &str) -> Element {
+fn document<M>(info: &ModelInfo, table: &Table<M>, guid: &str) -> Result<Element, DefinitionError> {
     let tool = format!("{} {}", env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
     let sections = [
         Some(co_simulation(info)),
@@ -69,11 +39,11 @@ fn document<M>(info: &ModelInfo, table: &Table<M>, guid: &str) -> Element {
         type_definitions(table),
         Some(log_categories()),
         Some(default_experiment(info)),
-        vendor_annotations(info),
+        vendor_annotations(info)?,
         Some(model_variables(table)),
         Some(model_structure(table)),
     ];
-    Element::new("fmiModelDescription")
+    let head = Element::new("fmiModelDescription")
         .attribute("fmiVersion", "2.0")
         .attribute("modelName", info.model_name)
         .attribute("guid", guid)
@@ -83,8 +53,8 @@ fn document<M>(info: &ModelInfo, table: &Table<M>, guid: &str) -> Element {
         .attribute_if_any("copyright", info.copyright)
         .attribute_if_any("license", info.license)
         .attribute("generationTool", tool)
-        .attribute("variableNamingConvention", "structured")
-        .children(sections.into_iter().flatten())
+        .attribute("variableNamingConvention", "structured");
+    Ok(head.children(sections.into_iter().flatten()))
 }
 
 fn co_simulation(info: &ModelInfo) -> Element {
@@ -105,21 +75,32 @@ fn co_simulation(info: &ModelInfo) -> Element {
 /// The units in use, by name.
 fn unit_definitions<M>(table: &Table<M>) -> Option<Element> {
     let mut units: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-    for variable in table.variables() {
-        if let Typed::Real {
-            unit: Some(unit),
-            display_unit,
-            ..
-        } = &variable.typed
-        {
+    for entry in table.entries() {
+        if let (Typed::Real { display_unit, .. }, Some(unit)) = (&entry.row.typed, entry.unit()) {
             units.entry(unit).or_default().extend(*display_unit);
         }
     }
-    let elements = units.into_iter().filter_map(|(name, display_units)| {
-        let display_units: Vec<_> = display_units.into_iter().collect();
-        Some(Unit::parse(name)?.element(&display_units))
-    });
+    let elements = units
+        .into_iter()
+        .filter_map(|(name, display_units)| Some(unit_element(&Unit::parse(name)?, &display_units)));
     section("UnitDefinitions", elements)
+}
+
+/// `<Unit>` with the display units in use. A unit with a fractional exponent has no `<BaseUnit>`: FMI has no way to say it.
+fn unit_element(unit: &Unit, display_units: &BTreeSet<&str>) -> Element {
+    let mut element = Element::new("Unit").attribute("name", unit.name());
+    if unit.is_whole() {
+        let powers = unit.exponents().filter(|(_, exponent)| exponent.abs() > 0.0);
+        element = element.child(powers.fold(Element::new("BaseUnit"), |base_unit, (symbol, exponent)| {
+            base_unit.attribute(symbol, number(exponent))
+        }));
+    }
+    let shown = unit.display_units().filter(|(name, _)| display_units.contains(name));
+    element.children(shown.map(|(name, factor)| {
+        Element::new("DisplayUnit")
+            .attribute("name", name)
+            .attribute("factor", number(factor))
+    }))
 }
 
 fn type_definitions<M>(table: &Table<M>) -> Option<Element> {
@@ -144,8 +125,20 @@ fn log_categories() -> Element {
     Element::new("LogCategories").children(Category::ALL.into_iter().map(|category| {
         Element::new("Category")
             .attribute("name", category.name())
-            .attribute("description", category.about())
+            .attribute("description", about(category))
     }))
+}
+
+/// One sentence about a category.
+fn about(category: Category) -> &'static str {
+    match category {
+        Category::StatusWarning => "messages of calls that end in fmi2Warning; always sent",
+        Category::StatusDiscard => "messages of calls that end in fmi2Discard; always sent",
+        Category::StatusError => "messages of calls that end in fmi2Error; always sent",
+        Category::StatusFatal => "messages of calls that end in fmi2Fatal; always sent",
+        Category::Events => "noteworthy events of the model, sent while logging is on",
+        Category::All => "every message, details included",
+    }
 }
 
 fn default_experiment(info: &ModelInfo) -> Element {
@@ -155,60 +148,63 @@ fn default_experiment(info: &ModelInfo) -> Element {
         .attribute("stepSize", number(info.default_step))
 }
 
-fn vendor_annotations(info: &ModelInfo) -> Option<Element> {
+fn vendor_annotations(info: &ModelInfo) -> Result<Option<Element>, DefinitionError> {
     let tools = info.vendor_annotations.iter().map(|annotation| {
-        Element::new("Tool")
-            .attribute("name", annotation.tool)
-            .child(annotation.content.clone())
+        let tool = Element::new("Tool").attribute("name", annotation.tool());
+        Ok(tool.child(annotation.content()?.clone()))
     });
-    section("VendorAnnotations", tools)
+    let tools = tools.collect::<Result<Vec<_>, DefinitionError>>()?;
+    Ok(section("VendorAnnotations", tools))
 }
 
+/// FMI 2.0 has no arrays: every entry is a variable, and its number the value reference.
 fn model_variables<M>(table: &Table<M>) -> Element {
-    let variables = (0_u32..).zip(table.variables());
-    Element::new("ModelVariables").children(variables.map(|(reference, variable)| scalar_variable(reference, variable)))
+    let entries = (0_u32..).zip(table.entries());
+    Element::new("ModelVariables").children(entries.map(|(reference, entry)| scalar_variable(reference, entry)))
 }
 
-fn scalar_variable<M>(reference: u32, variable: &Variable<M>) -> Element {
-    let initial = match variable.causality {
+fn scalar_variable<M>(reference: u32, entry: Entry<'_, M>) -> Element {
+    let row = entry.row;
+    let initial = match row.causality {
         Causality::Parameter => "exact",
         Causality::Input => "", // must not be stated: an input always starts at its start value
         Causality::Output | Causality::Local => "calculated",
     };
     Element::new("ScalarVariable")
-        .attribute("name", &variable.name)
+        .attribute("name", entry.name())
         .attribute("valueReference", reference.to_string())
-        .attribute_if_any("description", &variable.about)
-        .attribute("causality", variable.causality.name())
-        .attribute("variability", variable.variability.name())
+        .attribute_if_any("description", entry.about())
+        .attribute("causality", row.causality.name())
+        .attribute("variability", row.variability.name())
         .attribute_if_any("initial", initial)
-        .child(type_element(&variable.typed))
+        .child(type_element(entry))
 }
 
-fn type_element<M>(typed: &Typed<M>) -> Element {
-    let element = Element::new(typed.name());
-    match typed {
+fn type_element<M>(entry: Entry<'_, M>) -> Element {
+    let Entry { row, element: k } = entry;
+    let element = Element::new(row.typed.name());
+    match &row.typed {
         Typed::Real {
             access,
-            unit,
             display_unit,
             bounds,
+            ..
         } => element
-            .attribute_if_any("unit", unit.as_deref().unwrap_or_default())
+            .attribute_if_any("unit", entry.unit().unwrap_or_default())
             .attribute_if_any("displayUnit", display_unit.unwrap_or_default())
             .attribute_if_any("min", &optional(bounds.declared_min(), number))
             .attribute_if_any("max", &optional(bounds.max, number))
-            .attribute_if_any("start", &optional(access.start, number)),
+            .attribute_if_any("start", &optional(access.start(k).copied(), number)),
         Typed::Integer { access, bounds } => element
             .attribute_if_any("min", &optional(bounds.declared_min(), |v| v.to_string()))
             .attribute_if_any("max", &optional(bounds.max, |v| v.to_string()))
-            .attribute_if_any("start", &optional(access.start, |v| v.to_string())),
+            .attribute_if_any("start", &optional(access.start(k), |v| v.to_string())),
         Typed::Enumeration { access, declared } => element
             .attribute("declaredType", &declared.name)
-            .attribute_if_any("start", &optional(access.start, |v| v.to_string())),
-        Typed::Boolean { access } => element.attribute_if_any("start", &optional(access.start, |v| v.to_string())),
+            .attribute_if_any("start", &optional(access.start(k), |v| v.to_string())),
+        Typed::Boolean { access } => element.attribute_if_any("start", &optional(access.start(k), |v| v.to_string())),
         // the empty text is a start value, too
-        Typed::String { access } => match &access.start {
+        Typed::String { access } => match access.start(k) {
             Some(start) => element.attribute("start", start),
             None => element,
         },
@@ -224,21 +220,21 @@ fn optional<T>(value: Option<T>, show: impl Fn(T) -> String) -> String {
 /// coupled both ways.
 fn model_structure<M>(table: &Table<M>) -> Element {
     let at_initialization = |unknown: &Variable<M>| {
-        let known = |variable: &Variable<M>| match variable.causality {
+        let known = |row: &Variable<M>| match row.causality {
             Causality::Parameter => true,
-            Causality::Input => unknown.initial_inputs.contains(&variable.base_name()),
+            Causality::Input => unknown.initial_inputs.contains(&row.name.as_str()),
             Causality::Output | Causality::Local => false,
         };
-        let knowns = (1_usize..).zip(table.variables()).filter(|(_, v)| known(v));
+        let knowns = (1_usize..).zip(table.entries()).filter(|(_, entry)| known(entry.row));
         knowns.map(|(index, _)| index.to_string()).collect::<Vec<_>>().join(" ")
     };
     let unknowns = |dependencies: &dyn Fn(&Variable<M>) -> String| -> Vec<Element> {
-        let variables = (1_usize..).zip(table.variables());
-        let outputs = variables.filter(|(_, variable)| variable.causality == Causality::Output);
-        let unknown = |(index, variable): (usize, &Variable<M>)| {
+        let entries = (1_usize..).zip(table.entries());
+        let outputs = entries.filter(|(_, entry)| entry.row.causality == Causality::Output);
+        let unknown = |(index, entry): (usize, Entry<'_, M>)| {
             Element::new("Unknown")
                 .attribute("index", index.to_string())
-                .attribute("dependencies", dependencies(variable))
+                .attribute("dependencies", dependencies(entry.row))
         };
         outputs.map(unknown).collect()
     };
@@ -261,36 +257,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn facts_are_checked() {
-        let good = || ModelInfo {
-            model_name: "a b",
-            model_identifier: "a_b1",
-            default_stop: 1.0,
-            default_step: 0.5,
-            ..ModelInfo::default()
-        };
-        assert_eq!(check_info(&good()), Ok(()));
-        let nameless = ModelInfo {
-            model_name: "",
-            ..good()
-        };
-        assert_eq!(check_info(&nameless), Err(DefinitionError::NoModelName));
-        for model_identifier in ["", "a-b", "1a", "a b", "\u{e4}"] {
-            let identifier = model_identifier.to_owned();
-            let info = ModelInfo {
-                model_identifier,
-                ..good()
-            };
-            assert_eq!(check_info(&info), Err(DefinitionError::BadIdentifier { identifier }));
-        }
-        for (default_stop, default_step) in [(0.0, 0.5), (1.0, 0.0), (f64::INFINITY, 1.0)] {
-            let info = ModelInfo {
-                default_stop,
-                default_step,
-                ..good()
-            };
-            let (stop, step) = (default_stop, default_step);
-            assert_eq!(check_info(&info), Err(DefinitionError::BadExperiment { stop, step }));
-        }
+    fn a_fractional_exponent_has_no_base_unit() {
+        let element = |name| unit_element(&Unit::parse(name).unwrap(), &BTreeSet::from(["deg"]));
+        let unit = |name: &str| Element::new("Unit").attribute("name", name);
+        assert_eq!(element("m/s^2.5"), unit("m/s^2.5"));
+        let base = Element::new("BaseUnit").attribute("rad", "1");
+        let deg = Element::new("DisplayUnit")
+            .attribute("name", "deg")
+            .attribute("factor", "57.29577951308232");
+        assert_eq!(element("rad"), unit("rad").child(base).child(deg));
     }
 }

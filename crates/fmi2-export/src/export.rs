@@ -1,10 +1,7 @@
 //! The macro that gives a library its C functions.
 
-/// Exports every function of FMI 2.0 for a [`Model`](crate::Model), in a module `fmi2`. One per library.
-///
-/// ```ignore
-/// fmi2_export::export_fmu!(NavModel);
-/// ```
+/// Exports every function of FMI 2.0 for a [`Model`](crate::Model), in a module `fmi2`. One per library, at its top:
+/// `export_fmu!(NavModel);`.
 ///
 /// The functions only forward; see [`Model`](crate::Model) for what reaches the model. For the host:
 ///
@@ -18,6 +15,13 @@
 macro_rules! export_fmu {
     ($model:ty) => {
         type Fmi2ExportedModel = $model;
+
+        impl $crate::Exported for $model {
+            fn guid_cell() -> &'static $crate::GuidCell {
+                static CELL: $crate::GuidCell = $crate::GuidCell::new();
+                &CELL
+            }
+        }
 
         /// The functions of FMI 2.0, under their C names.
         #[allow(unsafe_code, missing_docs, non_snake_case)]

@@ -1,18 +1,20 @@
 //! Holds the committed `modelDescription.xml` and the code together.
 
+use std::fmt;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use fmi_model::{DefinitionError, Model};
+use similar::TextDiff;
+
 use crate::description::render;
-use crate::model::Model;
-use crate::table::DefinitionError;
 
 /// Set to `1`, this environment variable makes [`golden_check`] rewrite the file.
 const UPDATE: &str = "UPDATE_GOLDEN";
 
 /// Why the committed description is not that of the code.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 pub enum GoldenError {
     /// The code cannot be described.
     #[error(transparent)]
@@ -34,28 +36,28 @@ pub enum GoldenError {
         source: io::Error,
     },
     /// The texts differ.
-    #[error(
-        "{path}, line {line}: committed '{committed}', rendered '{rendered}'; if the change is meant, \
-         UPDATE_GOLDEN=1 rewrites the file"
-    )]
+    #[error("{path} is not what the code renders; if the change is meant, UPDATE_GOLDEN=1 rewrites the file\n{diff}")]
     Differs {
         /// The file.
         path: PathBuf,
-        /// First line that differs, from 1.
-        line: usize,
-        /// That line of the file.
-        committed: String,
-        /// That line of the code.
-        rendered: String,
+        /// From the file to what the code renders, as a unified diff.
+        diff: String,
     },
+}
+
+// A test unwraps it, and a derived `Debug` would fold the diff into one line.
+impl fmt::Debug for GoldenError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{self}")?;
+        std::error::Error::source(self).map_or(Ok(()), |source| write!(f, ": {source}"))
+    }
 }
 
 /// Compares the description of `M` with a committed file, byte for byte, or rewrites the file if the environment has
 /// `UPDATE_GOLDEN=1`. Checks also that the model reads back every start value. For a unit test in each FMU crate.
 ///
 /// # Errors
-/// A mistake in the definition, a file that cannot be read or written, or the first line that differs. The GUID stands near the
-/// top and changes with any other line, so a difference below it is reported before it.
+/// A mistake in the definition, a file that cannot be read or written, or what differs.
 pub fn golden_check<M: Model>(path: &Path) -> Result<(), GoldenError> {
     let rendered = render::<M>()?;
     let mut model = M::blank();
@@ -76,12 +78,15 @@ fn compare(path: &Path, rendered: &str) -> Result<(), GoldenError> {
         return Ok(());
     }
     let committed = String::from_utf8_lossy(&committed);
-    let (line, committed, rendered) = first_difference(&committed, rendered);
+    let diff = TextDiff::from_lines(committed.as_ref(), rendered);
+    let diff = diff
+        .unified_diff()
+        .context_radius(1)
+        .header("committed", "rendered")
+        .to_string();
     Err(GoldenError::Differs {
         path: path.to_owned(),
-        line,
-        committed,
-        rendered,
+        diff,
     })
 }
 
@@ -95,42 +100,18 @@ fn write(path: &Path, text: &str) -> Result<(), GoldenError> {
         })
 }
 
-/// Line number and the two lines. The line of the GUID comes last, since it only says that another one differs.
-fn first_difference(committed: &str, rendered: &str) -> (usize, String, String) {
-    let count = committed.split('\n').count().max(rendered.split('\n').count());
-    let lines = |text: &str| -> Vec<String> {
-        let lines = text.split('\n').map(str::to_owned);
-        lines
-            .chain(std::iter::repeat("(end of file)".to_owned()))
-            .take(count)
-            .collect()
-    };
-    let (committed, rendered) = (lines(committed), lines(rendered));
-    let differing = || (0..count).filter(|i| committed[*i] != rendered[*i]);
-    let index = differing()
-        .find(|i| !rendered[*i].trim_start().starts_with("guid="))
-        .or_else(|| differing().next())
-        .unwrap_or(0);
-    (index + 1, committed[index].clone(), rendered[index].clone())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     const TEXT: &str = "<a\n  guid=\"1\"\n  b=\"2\"/>\n";
 
-    fn differing(committed: &str) -> (usize, String, String) {
+    fn differing(committed: &str) -> String {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/er/x.xml");
         write(&path, committed).unwrap();
         match compare(&path, TEXT) {
-            Err(GoldenError::Differs {
-                line,
-                committed,
-                rendered,
-                ..
-            }) => (line, committed, rendered),
+            Err(error @ GoldenError::Differs { .. }) => error.to_string(),
             other => panic!("{other:?}"),
         }
     }
@@ -144,18 +125,22 @@ mod tests {
     }
 
     #[test]
-    fn the_first_meaningful_difference_is_named() {
-        let line = |number, committed: &str, rendered: &str| (number, committed.to_owned(), rendered.to_owned());
-        assert_eq!(
-            differing(&TEXT.replace("1", "0").replace("2", "3")),
-            line(3, "  b=\"3\"/>", "  b=\"2\"/>")
-        );
-        assert_eq!(
-            differing(&TEXT.replace("1", "0")),
-            line(2, "  guid=\"0\"", "  guid=\"1\"")
-        );
-        assert_eq!(differing(TEXT.trim_end()), line(4, "(end of file)", ""));
-        assert_eq!(differing(&TEXT.replace('\n', "\r\n")).0, 1);
+    fn every_difference_is_shown() {
+        let said = differing(&TEXT.replace('1', "0").replace('2', "3"));
+        for part in [
+            "x.xml is not what the code renders",
+            "UPDATE_GOLDEN=1",
+            "-  guid=\"0\"\n",
+            "+  guid=\"1\"\n",
+            "-  b=\"3\"/>\n",
+            "+  b=\"2\"/>\n",
+        ] {
+            assert!(said.contains(part), "{part}: {said}");
+        }
+        let error = compare(Path::new("none.xml"), TEXT).unwrap_err();
+        assert!(format!("{error:?}").starts_with("none.xml cannot be read; UPDATE_GOLDEN=1 creates it: "));
+        assert!(differing(TEXT.trim_end()).contains("No newline at end of file"));
+        assert!(differing(&TEXT.replace('\n', "\r\n")).contains("-<a\r\n"));
     }
 
     #[test]

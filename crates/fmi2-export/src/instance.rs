@@ -1,27 +1,20 @@
-//! One instance of a model: what each call does, in safe Rust.
-//!
-//! A call that is refused (wrong phase, unknown or unfit variable, value out of bounds, times that do not fit) changes nothing
-//! and leaves the instance usable: arrays are checked whole before the first value is applied.
+//! One instance behind the C functions: call order and panics around what [`fmi_model::Instance`] does.
 
 use std::ffi::CString;
 
+use fmi_model::{Category, Checked, Experiment, InstanceError, Log, Model, Phase, Scalar, Snapshot, Wanted, guarded};
 use fmi2_abi::{Fmi2Status, Fmi2StatusKind};
 
-use crate::check::{Checked, check_settable, finite};
 use crate::error::CallError;
-use crate::guard::guarded;
-use crate::log::{Category, Log, Logger};
-use crate::model::{Experiment, Model};
-use crate::order::{Function, Phase};
-use crate::snapshot::Snapshot;
-use crate::table::{Scalar, Variable};
+use crate::log::Logger;
+use crate::order::Function;
 
 /// What most calls answer.
 pub(crate) type Answer = Result<Fmi2Status, CallError>;
 
 pub(crate) struct Instance<M> {
     logger: Logger,
-    state: Snapshot<M>,
+    model: fmi_model::Instance<M>,
     /// What the last `fmi2GetString` handed out; holds until the next call of it.
     texts: Vec<CString>,
 }
@@ -30,7 +23,7 @@ impl<M: Model> Instance<M> {
     pub(crate) fn new(logger: Logger) -> Self {
         Self {
             logger,
-            state: Snapshot::start(),
+            model: fmi_model::Instance::new(),
             texts: Vec::new(),
         }
     }
@@ -38,11 +31,11 @@ impl<M: Model> Instance<M> {
     /// Runs one call: call order first, then `body`, and the reason of any failure to the log. After a panic the instance
     /// answers nothing but `fmi2Fatal`.
     pub(crate) fn run(&mut self, function: &Function, body: impl FnOnce(&mut Self) -> Answer) -> Fmi2Status {
-        if self.state.phase == Phase::Fatal {
+        if self.model.phase() == Phase::Fatal {
             return Fmi2Status::Fatal;
         }
         let status = guarded(|| {
-            let answer = function.check(self.state.phase).and_then(|()| body(&mut *self));
+            let answer = function.check(self.model.phase()).and_then(|()| body(&mut *self));
             answer.unwrap_or_else(|error| {
                 let status = error.status();
                 self.explain(status, function, &error.chain());
@@ -50,7 +43,7 @@ impl<M: Model> Instance<M> {
             })
         });
         status.unwrap_or_else(|panic| {
-            self.state.phase = Phase::Fatal;
+            self.model.poison();
             self.explain(Fmi2Status::Fatal, function, &panic);
             Fmi2Status::Fatal
         })
@@ -61,6 +54,20 @@ impl<M: Model> Instance<M> {
         self.logger.sink.explain(status, &message);
     }
 
+    /// Hands the instance to `body` with the log of the call, whose warnings become the status.
+    fn logged(
+        &mut self,
+        body: impl FnOnce(&mut fmi_model::Instance<M>, &mut Log<'_>) -> Result<(), InstanceError>,
+    ) -> Answer {
+        let mut log = Log::new(&self.logger);
+        body(&mut self.model, &mut log)?;
+        Ok(if log.warned() {
+            Fmi2Status::Warning
+        } else {
+            Fmi2Status::Ok
+        })
+    }
+
     // Life cycle.
 
     pub(crate) fn set_debug_logging(&mut self, logging_on: bool, categories: &[&str]) -> Answer {
@@ -68,87 +75,40 @@ impl<M: Model> Instance<M> {
             .iter()
             .map(|name| Category::from_name(name).ok_or_else(|| unknown_category(name)))
             .collect::<Result<Vec<_>, _>>()?;
-        self.logger.configure(logging_on, &categories);
+        self.logger.wanted = Wanted::new(logging_on, &categories);
         Ok(Fmi2Status::Ok)
     }
 
     pub(crate) fn setup_experiment(&mut self, experiment: Experiment) -> Answer {
-        let start = experiment.start_time;
-        finite("start time", start)?;
-        if let Some(stop) = experiment.stop_time {
-            finite("stop time", stop)?;
-            if stop < start {
-                return Err(CallError::StopBeforeStart { start, stop });
-            }
-        }
-        if let Some(tolerance) = experiment.tolerance {
-            finite("tolerance", tolerance)?;
-            if tolerance <= 0.0 {
-                return Err(CallError::BadTolerance { tolerance });
-            }
-        }
-        self.state.experiment = experiment;
-        self.state.time = start;
+        self.model.setup_experiment(experiment)?;
         Ok(Fmi2Status::Ok)
     }
 
     pub(crate) fn enter_initialization_mode(&mut self) -> Answer {
-        self.state.phase = Phase::Initialization;
-        self.state.stale = true;
-        self.refresh()
+        self.logged(fmi_model::Instance::enter_initialization)
     }
 
     pub(crate) fn exit_initialization_mode(&mut self) -> Answer {
-        let status = self.refresh()?;
-        self.state.phase = Phase::StepComplete;
-        Ok(status)
+        self.logged(fmi_model::Instance::exit_initialization)
     }
 
     pub(crate) fn terminate(&mut self) -> Answer {
-        let mut log = Log::new(&self.logger);
-        self.state.model.terminate(&mut log);
-        self.state.phase = Phase::Terminated;
-        Ok(log.status())
+        self.logged(|model, log| {
+            model.terminate(log);
+            Ok(())
+        })
     }
 
     pub(crate) fn reset(&mut self) -> Answer {
-        self.state = Snapshot::start();
+        self.model.reset();
         Ok(Fmi2Status::Ok)
-    }
-
-    /// Lets the model initialise if a variable was set since it last did.
-    fn refresh(&mut self) -> Answer {
-        if self.state.phase != Phase::Initialization || !self.state.stale {
-            return Ok(Fmi2Status::Ok);
-        }
-        let mut log = Log::new(&self.logger);
-        let state = &mut self.state;
-        match state.model.initialise(&state.experiment, &mut log) {
-            Ok(()) => {
-                state.stale = false;
-                Ok(log.status())
-            }
-            Err(error) => {
-                state.phase = Phase::Failed;
-                Err(CallError::Model(error))
-            }
-        }
     }
 
     // Variables.
 
     /// Hands the value of each variable to `put`, with its place in `references`.
-    pub(crate) fn get<T: Scalar>(&mut self, references: &[u32], mut put: impl FnMut(usize, T)) -> Answer {
-        for reference in references {
-            variable::<M, T>(*reference)?;
-        }
-        let status = self.refresh()?;
-        for (place, reference) in references.iter().enumerate() {
-            if let Some(access) = T::access(&variable::<M, T>(*reference)?.typed) {
-                put(place, access.read(&self.state.model));
-            }
-        }
-        Ok(status)
+    pub(crate) fn get<T: Scalar>(&mut self, references: &[u32], put: impl FnMut(usize, T)) -> Answer {
+        self.logged(|model, log| model.get(references, log, put))
     }
 
     /// Like [`get`](Self::get), for texts that live until the next call of this function.
@@ -157,10 +117,13 @@ impl<M: Model> Instance<M> {
         let status = self.get(references, |_, value: String| values.push(value))?;
         let mut texts = Vec::with_capacity(values.len());
         for (value, reference) in values.into_iter().zip(references) {
-            texts.push(CString::new(value).or_else(|_| {
-                let name = variable::<M, String>(*reference)?.name.clone();
-                Err(CallError::NulInText { name })
-            })?);
+            let unfit = |_| {
+                let name = M::table().entry(*reference).map(|entry| entry.name().into_owned());
+                CallError::NulInText {
+                    name: name.unwrap_or_default(),
+                }
+            };
+            texts.push(CString::new(value).map_err(unfit)?);
         }
         self.texts = texts;
         for (place, text) in self.texts.iter().enumerate() {
@@ -171,51 +134,20 @@ impl<M: Model> Instance<M> {
 
     /// Sets variables; `value` gives the value at a place in `references`.
     pub(crate) fn set<T: Checked>(&mut self, references: &[u32], value: impl Fn(usize) -> T) -> Answer {
-        for (place, reference) in references.iter().enumerate() {
-            let variable = variable::<M, T>(*reference)?;
-            check_settable(variable, self.state.phase)?;
-            T::check(&value(place), variable)?;
-        }
-        for (place, reference) in references.iter().enumerate() {
-            if let Some(access) = T::access(&variable::<M, T>(*reference)?.typed) {
-                access.write(&mut self.state.model, value(place));
-            }
-        }
-        self.state.stale |= self.state.phase == Phase::Initialization && !references.is_empty();
+        self.model.set(references, value)?;
         Ok(Fmi2Status::Ok)
     }
 
     // Steps.
 
     pub(crate) fn do_step(&mut self, t: f64, h: f64) -> Answer {
-        finite("communication point", t)?;
-        finite("communication step size", h)?;
-        if h <= 0.0 {
-            return Err(CallError::BadStep { h });
-        }
-        finite("end of the step", t + h)?;
-        let expected = self.state.time;
-        if (t - expected).abs() > 1e-9 * t.abs().max(1.0) + 1e-6 * h {
-            return Err(CallError::TimeMismatch { t, expected });
-        }
-        let mut log = Log::new(&self.logger);
-        let state = &mut self.state;
-        match state.model.do_step(t, h, &mut log) {
-            Ok(()) => {
-                state.time = t + h;
-                Ok(log.status())
-            }
-            Err(error) => {
-                state.phase = Phase::Failed;
-                Err(CallError::Model(error))
-            }
-        }
+        self.logged(|model, log| model.do_step(t, h, log))
     }
 
     /// End of the last successful step, s, or why there is no such information.
     pub(crate) fn real_status(&self, kind: Fmi2StatusKind) -> Result<f64, CallError> {
         match kind {
-            Fmi2StatusKind::LastSuccessfulTime => Ok(self.state.time),
+            Fmi2StatusKind::LastSuccessfulTime => Ok(self.model.time()),
             other => Err(not_available(other)),
         }
     }
@@ -231,11 +163,11 @@ impl<M: Model> Instance<M> {
     // Saved states.
 
     pub(crate) fn state(&self) -> &Snapshot<M> {
-        &self.state
+        self.model.state()
     }
 
     pub(crate) fn set_state(&mut self, state: &Snapshot<M>) -> Answer {
-        self.state = state.clone();
+        self.model.set_state(state.clone());
         Ok(Fmi2Status::Ok)
     }
 }
@@ -256,21 +188,4 @@ fn unknown_category(given: &str) -> CallError {
         given: given.to_owned(),
         known: Category::ALL.map(Category::name).join(", "),
     }
-}
-
-/// The row behind a value reference, if its type is `T`.
-fn variable<M: Model, T: Scalar>(reference: u32) -> Result<&'static Variable<M>, CallError> {
-    let table = M::table();
-    let variable = table.variable(reference).ok_or_else(|| CallError::UnknownReference {
-        reference,
-        count: table.variables().len(),
-    })?;
-    if T::access(&variable.typed).is_none() {
-        return Err(CallError::WrongType {
-            name: variable.name.clone(),
-            reference,
-            declared: variable.typed.name(),
-        });
-    }
-    Ok(variable)
 }

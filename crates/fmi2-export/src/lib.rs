@@ -1,42 +1,31 @@
-//! Turns a Rust model and its variable table into an FMI 2.0 co-simulation slave.
+#![doc = include_str!("../README.md")]
 //!
-//! Here: the [`Model`] trait, the [`Table`] of variables, the rendering of `modelDescription.xml`, the call-order state machine,
-//! the panic guard, saved states, and [`export_fmu!`], which gives a `cdylib` every function of the standard. Not here: any
-//! physics, packing into a `.fmu` file, and the host's side of the interface.
+//! # Where to start
 //!
-//! Start with [`Model`] and [`TableBuilder`]; a model crate needs those two, [`golden_check`] in a test, and one line:
-//!
-//! ```ignore
-//! fmi2_export::export_fmu!(NavModel);
-//! ```
+//! A model crate needs [`Model`], [`TableBuilder`], [`golden_check`] in a test, and one line of [`export_fmu!`]. Inside,
+//! `boundary` holds the C functions, `order` says when each may be called, `instance` what it does, and `description` renders.
 
 #[doc(hidden)]
 pub mod boundary;
-mod check;
 mod description;
 mod error;
 mod export;
 mod golden;
-mod guard;
+mod identity;
 mod instance;
 mod log;
-mod model;
 mod order;
-mod snapshot;
-mod table;
-mod unit;
-mod xml;
 
 /// What [`export_fmu!`] refers to.
 #[doc(hidden)]
 pub use fmi2_abi as abi;
 
 pub use description::{guid, render};
-pub use golden::{GoldenError, golden_check};
-pub use log::{Category, Log};
-pub use model::{Experiment, Model, ModelError, ModelInfo, VendorAnnotation};
-pub use table::{
-    Access, Boolean, Bounds, Causality, DefinitionError, Enumeration, EnumerationItem, EnumerationType, Integer, Kind,
-    Real, Row, Scalar, Table, TableBuilder, Text, Typed, Variability, Variable,
+pub use fmi_model::{
+    Access, Boolean, Bounds, Category, Causality, DefinitionError, Element, Entry, Enumeration, EnumerationItem,
+    EnumerationType, Experiment, Integer, Kind, Log, Model, ModelError, ModelInfo, Real, Row, Scalar, Shape, Table,
+    TableBuilder, Text, Typed, Variability, Variable, VendorAnnotation,
 };
-pub use xml::Element;
+pub use golden::{GoldenError, golden_check};
+#[doc(hidden)]
+pub use identity::{Exported, GuidCell};

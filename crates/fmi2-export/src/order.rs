@@ -1,40 +1,8 @@
 //! Which function may be called when: the co-simulation state machine of FMI 2.0.3, section 4.2.4, as a table.
 
-use std::fmt;
-
-use serde::{Deserialize, Serialize};
+use fmi_model::Phase;
 
 use crate::error::CallError;
-
-/// Where an instance is in its life.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) enum Phase {
-    /// Created or reset.
-    Instantiated,
-    /// Between `fmi2EnterInitializationMode` and `fmi2ExitInitializationMode`.
-    Initialization,
-    /// Initialised, and every step so far went well.
-    StepComplete,
-    /// The model could not initialise or step.
-    Failed,
-    /// After `fmi2Terminate`.
-    Terminated,
-    /// After a panic; the model must not be touched again.
-    Fatal,
-}
-
-impl fmt::Display for Phase {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Instantiated => "instantiated",
-            Self::Initialization => "initialization mode",
-            Self::StepComplete => "step complete",
-            Self::Failed => "failed",
-            Self::Terminated => "terminated",
-            Self::Fatal => "fatal",
-        })
-    }
-}
 
 use Phase::{Failed, Initialization, Instantiated, StepComplete, Terminated};
 

@@ -48,11 +48,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         )?;
     }
 
-    for preset in &about.presets {
-        writeln!(out, "\n{}@{}: {}", preset.filter, preset.name, preset.about)?;
-        for (variable, value) in &preset.sets {
-            writeln!(out, "  {variable} = {value}")?;
-        }
+    for annotation in &about.vendor_annotations {
+        writeln!(out, "\nfor {}:\n{}", annotation.tool, annotation.xml)?;
     }
     Ok(())
 }

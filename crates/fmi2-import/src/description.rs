@@ -42,12 +42,8 @@ pub struct ModelDescription {
     pub log_categories: Vec<LogCategory>,
     /// Every variable, in the order of the file.
     pub variables: Vec<Variable>,
-    /// Named parameter sets from the `trade-harness` vendor annotation; empty in FMUs without one.
-    pub presets: Vec<Preset>,
-    /// Filters that have a meaning in some scenarios only, from the same annotation; the others have one everywhere.
-    pub meanings: Vec<Meaning>,
-    /// Ranges a search for the best tuning may vary, from the same annotation; empty in FMUs without one.
-    pub searches: Vec<Search>,
+    /// What the FMU tells particular tools, in the order of the file.
+    pub vendor_annotations: Vec<VendorAnnotation>,
     /// Position in `variables` by name.
     pub(crate) index: HashMap<String, usize>,
 }
@@ -154,39 +150,14 @@ pub struct LogCategory {
     pub description: Option<String>,
 }
 
-/// A named parameter set of one filter.
+/// What an FMU tells one tool.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Preset {
-    /// The filter it belongs to.
-    pub filter: String,
-    /// Name of the set.
-    pub name: String,
-    /// What it stands for.
-    pub about: String,
-    /// Variable names and the texts to set them to.
-    pub sets: Vec<(String, String)>,
-}
-
-/// Where a filter has a meaning.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Meaning {
-    /// The filter.
-    pub filter: String,
-    /// The scenarios in which it has one.
-    pub scenarios: Vec<String>,
-    /// Why not in the others.
-    pub why: String,
-}
-
-/// A range over which a search for the best tuning may vary a parameter, as stated: nothing about it is checked.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Search {
-    /// Name of the parameter.
-    pub variable: String,
-    /// Smallest value, in the unit of the variable.
-    pub low: f64,
-    /// Largest value.
-    pub high: f64,
+pub struct VendorAnnotation {
+    /// Name of the tool; empty if the file gives none.
+    pub tool: String,
+    /// The XML inside, as it stands in the file but for the blanks around it. It is well-formed; what it means is between
+    /// the FMU and the tool.
+    pub xml: String,
 }
 
 /// Role of a variable.
@@ -393,21 +364,16 @@ impl ModelDescription {
         })
     }
 
-    /// Items of the enumeration `filter`; none in FMUs without such a variable.
+    /// Items of the enumeration variable `name`; none where there is no such variable.
     #[must_use]
-    pub fn filters(&self) -> &[EnumerationItem] {
-        self.get("filter")
-            .and_then(Variable::enumeration_items)
-            .unwrap_or_default()
+    pub fn items(&self, name: &str) -> &[EnumerationItem] {
+        self.get(name).and_then(Variable::enumeration_items).unwrap_or_default()
     }
 
-    /// Why a filter has no meaning in a scenario; `None` where it has one.
-    #[must_use]
-    pub fn without_meaning(&self, filter: &str, scenario: &str) -> Option<&str> {
-        self.meanings
-            .iter()
-            .find(|m| m.filter == filter && !m.scenarios.iter().any(|s| s == scenario))
-            .map(|m| m.why.as_str())
+    /// The XML inside each annotation for the tool of this name, in the order of the file.
+    pub fn annotations<'a>(&'a self, tool: &'a str) -> impl Iterator<Item = &'a str> {
+        let own = self.vendor_annotations.iter().filter(move |a| a.tool == tool);
+        own.map(|annotation| annotation.xml.as_str())
     }
 
     /// Value references of the Reals `name[1]`..`name[n]`.

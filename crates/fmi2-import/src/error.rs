@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::instance::Status;
+use crate::status::Status;
+use crate::value::BaseType;
 
 /// Why an FMU could not be opened, loaded or driven; one variant per cause.
 #[derive(Debug, thiserror::Error)]
@@ -273,9 +274,9 @@ pub enum ImportError {
         /// The variable.
         variable: String,
         /// Its type.
-        found: crate::BaseType,
+        found: BaseType,
         /// The type needed.
-        expected: crate::BaseType,
+        expected: BaseType,
     },
 
     /// A text is no value of the variable's type, or lies outside its bounds.
@@ -284,7 +285,7 @@ pub enum ImportError {
         /// The variable.
         variable: String,
         /// Its type.
-        kind: crate::BaseType,
+        kind: BaseType,
         /// The text as given.
         text: String,
         /// What would be allowed.

@@ -1,35 +1,39 @@
-//! Opens, checks, loads and drives FMI 2.0 co-simulation FMUs.
+#![doc = include_str!("../README.md")]
 //!
-//! Here: unzipping, reading `modelDescription.xml`, loading the library of this platform, and a safe handle for each
-//! instance. Not here: what several slaves do together (`cosim`), or writing FMUs (`fmi2-export`).
+//! # Where to start
 //!
-//! Start with [`Fmu::open`]; its [`ModelDescription`] answers questions without loading anything, and
-//! [`Fmu::instantiate`] gives an [`Instance`] to drive. `examples/inspect.rs` shows the first half.
+//! With [`Fmu::open`]: its [`ModelDescription`] answers questions without loading anything, and [`Fmu::instantiate`] gives an
+//! [`Instance`] to drive.
 
-// The loaded library is C: calling it needs `unsafe`, which stays in `library`, `instance` and `logger`.
+// The loaded library is C: calling it needs `unsafe`, which stays in `library`, `instance`, `handles` and `logger`.
 #![allow(unsafe_code)]
 
 mod archive;
 mod description;
 mod error;
 mod fmu;
+mod handles;
 mod instance;
 mod library;
 mod logger;
+mod notation;
 mod platform;
+mod status;
 mod suggestion;
 mod value;
 mod xml;
 
 pub use description::{
     BaseUnit, Causality, CoSimulation, DefaultExperiment, DisplayUnit, EnumerationItem, EnumerationType, Initial,
-    LogCategory, Meaning, ModelDescription, Preset, Search, Unit, Variability, Variable, VariableKind,
+    LogCategory, ModelDescription, Unit, Variability, Variable, VariableKind, VendorAnnotation,
 };
 pub use error::ImportError;
 pub use fmi2_abi::Fmi2Status;
 pub use fmu::Fmu;
-pub use instance::{Experiment, FmuState, Instance, Outcome, Status};
+pub use handles::FmuState;
+pub use instance::{Experiment, Instance, Outcome};
 pub use logger::LogMessage;
 pub use platform::{LIBRARY_SUFFIX, PLATFORM};
+pub use status::Status;
 pub use suggestion::suggest;
 pub use value::{BaseType, Value};

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use fmi2_abi::{CallbackLogger, Fmi2CallbackFunctions, Fmi2ComponentEnvironment, Fmi2String, RawStatus};
 
-use crate::instance::Status;
+use crate::status::Status;
 
 /// Messages kept for each instance; older ones make room.
 const KEPT: usize = 256;

@@ -10,9 +10,7 @@
 mod common;
 
 use common::Workshop;
-use fmi2_import::{
-    BaseType, Causality, Fmu, ImportError, Initial, ModelDescription, Search, Value, Variability, suggest,
-};
+use fmi2_import::{BaseType, Causality, Fmu, ImportError, Initial, ModelDescription, Value, Variability, suggest};
 
 const XML: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <!-- written by hand -->
@@ -37,18 +35,13 @@ const XML: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
   <LogCategories><Category name="logEvents" description="what happens"/></LogCategories>
   <DefaultExperiment startTime="0" stopTime="5680" stepSize="1"/>
   <VendorAnnotations>
-    <Tool name="another"><Presets kind="other"><Preset/><Stray/></Presets><Searches><Search low="far"/></Searches><x:y xmlns:x="urn:x">text</x:y></Tool>
-    <Tool name="trade-harness"><Filters><Presets>
-      <Preset filter="milton" name="paper" about="as published"/>
-      <Preset filter="milton" name="consistent" about="as derived">
-        <Set variable="milton.residuals" value="consistent"/>
-        <Set variable="milton.m_b" value="3"/>
-      </Preset>
-    </Presets><Meaning>
-      <Only filter="observer" scenarios="formation, far" why="it needs the state measured in full"/>
-    </Meaning><Searches>
-      <Search variable="gate" low="1e-7" high=" 0.01"/>
-    </Searches></Filters></Tool>
+    <Tool name="another"><Presets kind="other"><Preset/><Tool name="inner">&lt;</Tool></Presets><x:y xmlns:x="urn:x">text</x:y></Tool>
+    <Tool name="a &amp; b">
+    <Filters>
+      <Set/>
+    </Filters></Tool>
+    <Tool name="silent"/>
+    <Tool name="another"><Again/></Tool>
   </VendorAnnotations>
   <ModelVariables>
     <ScalarVariable name="gate" valueReference="7" description="a bound" causality="parameter" variability="fixed" initial="exact">
@@ -146,65 +139,36 @@ fn declared_types_fill_in_what_a_variable_leaves_out() {
 }
 
 #[test]
-fn presets_are_read_from_our_annotation_alone() {
-    let presets = nav().presets;
-    assert_eq!(presets.len(), 2);
-    assert_eq!(
-        (presets[1].filter.as_str(), presets[1].name.as_str()),
-        ("milton", "consistent")
-    );
-    assert_eq!(presets[1].about, "as derived");
-    let sets: Vec<_> = presets[1].sets.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
-    assert_eq!(sets, [("milton.residuals", "consistent"), ("milton.m_b", "3")]);
-
-    let error = describe(&XML.replace("value=\"3\"/>", "/>")).unwrap_err();
-    assert!(error.to_string().contains("a Set has no value attribute"), "{error}");
-}
-
-#[test]
-fn a_filter_has_a_meaning_everywhere_unless_the_annotation_says_otherwise() {
+fn annotations_are_handed_over_as_they_stand() {
     let nav = nav();
-    assert_eq!(nav.meanings.len(), 1);
-    let why = "it needs the state measured in full";
-    for (filter, scenario, expected) in [
-        ("observer", "formation", None),
-        ("observer", "far", None),
-        ("observer", "form", Some(why)),
-        ("milton", "form", None),
-    ] {
-        assert_eq!(
-            nav.without_meaning(filter, scenario),
-            expected,
-            "{filter} in {scenario}"
-        );
-    }
-    for attribute in ["filter=\"observer\"", "scenarios=\"formation, far\""] {
-        let error = describe(&XML.replace(attribute, "")).unwrap_err().to_string();
-        let name = attribute.split('=').next().unwrap();
-        assert!(error.contains(&format!("an Only has no {name} attribute")), "{error}");
-    }
+    let tools: Vec<_> = nav.vendor_annotations.iter().map(|a| a.tool.as_str()).collect();
+    assert_eq!(tools, ["another", "a & b", "silent", "another"]);
+    let others: Vec<_> = nav.annotations("another").collect();
+    let first =
+        r#"<Presets kind="other"><Preset/><Tool name="inner">&lt;</Tool></Presets><x:y xmlns:x="urn:x">text</x:y>"#;
+    assert_eq!(others, [first, "<Again/>"]);
+    assert_eq!(
+        nav.annotations("a & b").collect::<Vec<_>>(),
+        ["<Filters>\n      <Set/>\n    </Filters>"]
+    );
+    assert_eq!(nav.annotations("silent").collect::<Vec<_>>(), [""]);
+    assert_eq!(
+        nav.annotations("z").count(),
+        0,
+        "an annotation of a variable is none of the FMU"
+    );
 }
 
 #[test]
-fn searches_are_read_from_our_annotation_alone() {
-    let expected = Search {
-        variable: "gate".to_owned(),
-        low: 1e-7,
-        high: 1e-2,
-    };
-    assert_eq!(nav().searches, [expected]);
-    for (from, to, told) in [
-        (" low=\"1e-7\"", "", "a Search has no low attribute"),
-        (" 0.01", "much", "high \"much\" of a Search is no number"),
-        (
-            "Search variable=\"gate\"",
-            "Search",
-            "a Search has no variable attribute",
-        ),
-    ] {
-        let error = describe(&XML.replace(from, to)).unwrap_err().to_string();
-        assert!(error.contains(told), "{error}");
-    }
+fn items_are_those_of_an_enumeration() {
+    let nav = nav();
+    let names: Vec<_> = nav
+        .items("milton.residuals")
+        .iter()
+        .map(|item| item.name.as_str())
+        .collect();
+    assert_eq!(names, ["printed", "consistent"]);
+    assert!(nav.items("gate").is_empty() && nav.items("no such").is_empty());
 }
 
 #[test]

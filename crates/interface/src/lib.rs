@@ -3,6 +3,7 @@
 //!
 //! Nothing here computes motion, estimates or statistics. Start reading at [`mission::Mission`].
 
+pub mod annotation;
 pub mod bound;
 pub mod mission;
 pub mod ports;

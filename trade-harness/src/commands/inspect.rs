@@ -8,10 +8,12 @@ use super::list::variables;
 use super::{Verdict, say};
 use crate::HarnessError;
 use crate::cli::InspectArgs;
+use crate::models::filters_of;
 
 pub(super) fn inspect(args: &InspectArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
     let fmu = Fmu::open(&args.path)?;
     let d = fmu.description();
+    let filters = filters_of(d)?;
     let text = |t: &Option<String>| t.clone().unwrap_or_else(|| "-".to_owned());
     let number = |n: Option<f64>| n.map_or_else(|| "-".to_owned(), |n| n.to_string());
     let e = &d.default_experiment;
@@ -40,8 +42,12 @@ pub(super) fn inspect(args: &InspectArgs, out: &mut dyn Write) -> Result<Verdict
     ] {
         say(out, &format!("{what:30} {value}"))?;
     }
-    for preset in &d.presets {
-        let sets: Vec<String> = preset.sets.iter().map(|(n, v)| format!("{n}={v}")).collect();
+    for preset in &filters.presets {
+        let sets: Vec<String> = preset
+            .sets
+            .iter()
+            .map(|s| format!("{}={}", s.variable, s.value))
+            .collect();
         say(
             out,
             &format!(
@@ -54,7 +60,7 @@ pub(super) fn inspect(args: &InspectArgs, out: &mut dyn Write) -> Result<Verdict
             ),
         )?;
     }
-    for s in &d.searches {
+    for s in &filters.searches {
         say(
             out,
             &format!(

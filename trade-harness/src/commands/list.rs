@@ -4,11 +4,12 @@ use std::io::Write;
 
 use comfy_table::{ContentArrangement, Table, presets};
 use fmi2_import::{Causality, EnumerationItem, ModelDescription, Variable};
+use interface::annotation::Filters;
 
 use super::{Verdict, own_fmus, say};
 use crate::HarnessError;
 use crate::cli::ListArgs;
-use crate::models::{NAV, PAPER, TRUTH};
+use crate::models::{NAV, PAPER, TRUTH, filters_of};
 use crate::scenarios::{Claim, SCENARIOS};
 
 pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
@@ -19,9 +20,10 @@ pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Verdict, Harn
         .collect::<Result<Vec<_>, _>>()?;
     say(out, &scenarios())?;
     if let [truth, nav] = fmus.as_slice() {
-        let filters = nav.description().filters();
+        let filters = nav.description().items("filter");
+        let told = filters_of(nav.description())?;
         for filter in filters {
-            say(out, &describe_filter(nav.description(), filter))?;
+            say(out, &describe_filter(nav.description(), &told, filter))?;
         }
         let of_a_filter = |v: &Variable| filters.iter().any(|f| prefix(&v.name) == f.name);
         let shared = parameters(nav.description()).filter(|v| !of_a_filter(v));
@@ -65,25 +67,25 @@ fn scenarios() -> String {
     text
 }
 
-fn describe_filter(nav: &ModelDescription, item: &EnumerationItem) -> String {
+fn describe_filter(nav: &ModelDescription, told: &Filters, item: &EnumerationItem) -> String {
     let (filter, about) = (item.name.as_str(), item.description.as_deref());
     let mut text = format!(
         "Filter {filter}{}\n",
         about.map(|a| format!(": {a}")).unwrap_or_default()
     );
-    for only in nav.meanings.iter().filter(|m| m.filter == filter) {
+    for only in told.meanings.iter().filter(|m| m.filter == filter) {
         text.push_str(&format!("  only in {}: {}\n", only.scenarios.join(", "), only.why));
     }
-    if !nav.presets.iter().any(|p| p.filter == filter && p.name == PAPER) {
+    if !told.presets_of(filter).any(|p| p.name == PAPER) {
         text.push_str(&format!("  {filter} = {filter}@{PAPER}: start values as below\n"));
     }
-    for preset in nav.presets.iter().filter(|p| p.filter == filter) {
+    for preset in told.presets_of(filter) {
         text.push_str(&format!("  {filter}@{}: {}\n", preset.name, preset.about));
-        for (name, value) in &preset.sets {
-            text.push_str(&format!("    {name} = {value}\n"));
+        for set in &preset.sets {
+            text.push_str(&format!("    {} = {}\n", set.variable, set.value));
         }
     }
-    for search in nav.searches.iter().filter(|s| prefix(&s.variable) == filter) {
+    for search in told.searches.iter().filter(|s| prefix(&s.variable) == filter) {
         text.push_str(&format!(
             "  tune: {} from {:?} to {:?}\n",
             search.variable, search.low, search.high

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use cosim::{BaseType, FmuSlave, Slave, Value};
 use fmi2_import::{Causality, Fmu, ModelDescription};
+use interface::annotation::{self, Filters};
 
 use crate::HarnessError;
 use crate::scenarios::Scenario;
@@ -103,8 +104,21 @@ pub struct Model {
     pub name: String,
     /// The FMU.
     pub fmu: Arc<Fmu>,
+    /// What it tells of its filters.
+    pub filters: Filters,
     /// Name mapping, (own name, contract name), by scalar.
     pub aliases: Vec<(String, String)>,
+}
+
+/// What an FMU tells of its filters: presets, search ranges, and where each has a meaning.
+///
+/// # Errors
+/// [`HarnessError::Annotation`].
+pub fn filters_of(description: &ModelDescription) -> Result<Filters, HarnessError> {
+    Filters::read(description.annotations(annotation::TOOL)).map_err(|source| HarnessError::Annotation {
+        model: description.model_name.clone(),
+        source,
+    })
 }
 
 impl Model {
@@ -116,6 +130,7 @@ impl Model {
         }
         Ok(Self {
             name: name.to_owned(),
+            filters: filters_of(fmu.description())?,
             fmu,
             aliases,
         })
@@ -244,7 +259,7 @@ impl Models {
             } else {
                 starts.tuned(choice, tuned)?
             };
-            if let Some(why) = model.description().without_meaning(&choice.name, scenario.name) {
+            if let Some(why) = model.filters.without_meaning(&choice.name, scenario.name) {
                 return Err(HarnessError::NoMeaning {
                     filter: choice.label.clone(),
                     scenario: scenario.name.to_owned(),
@@ -350,8 +365,7 @@ impl<'a> StartValues<'a> {
         choice: &FilterChoice,
         mut tuned: impl Iterator<Item = &'t TunedSet> + Clone,
     ) -> Result<Self, HarnessError> {
-        let description = self.model.description();
-        let items = description.filters();
+        let items = self.model.description().items("filter");
         if !items.iter().any(|i| i.name == choice.name) {
             return Err(HarnessError::UnknownFilter {
                 name: choice.name.clone(),
@@ -359,7 +373,7 @@ impl<'a> StartValues<'a> {
             });
         }
         self.set("filter", &choice.name)?;
-        let presets = || description.presets.iter().filter(|p| p.filter == choice.name);
+        let presets = || self.model.filters.presets_of(&choice.name);
         let known: BTreeSet<&str> = presets().map(|p| p.name.as_str()).chain([PAPER]).collect();
         let sets = tuned.clone();
         // A tuned set holds what was searched; all else is as in the preset that the search started from.
@@ -367,8 +381,8 @@ impl<'a> StartValues<'a> {
         let name = set.map_or(&choice.preset, |set| &set.preset);
         match presets().find(|p| p.name == *name) {
             Some(preset) => {
-                for (variable, text) in &preset.sets {
-                    self.set(variable, text)?;
+                for set in &preset.sets {
+                    self.set(&set.variable, &set.value)?;
                 }
             }
             // The paper's values are those the FMU starts with, so it need not list them.
@@ -416,7 +430,7 @@ impl<'a> StartValues<'a> {
     }
 
     fn named(self, label: &str) -> Participant {
-        let Model { name, fmu, aliases } = self.model;
+        let Model { name, fmu, aliases, .. } = self.model;
         let text = |name: &str, value: &Value| {
             fmu.description()
                 .get(name)

@@ -92,7 +92,8 @@ pub fn axes(
         });
     }
     let taken = |variable: &str| is_set(variable) || participant.varies(variable);
-    let proposed = description
+    let proposed = model
+        .filters
         .searches
         .iter()
         .filter(|s| own(&s.variable) && !taken(&s.variable));
@@ -120,7 +121,7 @@ pub fn axes(
 /// Whether a parameter of fmu-nav acts on this filter: one under its own prefix does, and so does one under no filter's.
 pub fn concerns(nav: &ModelDescription, filter: &str, variable: &str) -> bool {
     let prefix = variable.split('.').next().unwrap_or(variable);
-    prefix == filter || !nav.filters().iter().any(|i| i.name == prefix)
+    prefix == filter || !nav.items("filter").iter().any(|i| i.name == prefix)
 }
 
 fn check(model: &Model, name: &str, low: f64, high: f64) -> Result<(), HarnessError> {

@@ -5,15 +5,14 @@ use std::ffi::c_void;
 use std::ops::{Deref, DerefMut};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
+use fmi_model::Snapshot;
 use fmi2_abi::Fmi2Status;
 use uuid::Uuid;
 
-use crate::description::guid;
+use crate::identity::{Exported, own_guid};
 use crate::instance::Instance;
 use crate::log::Sink;
-use crate::model::Model;
 use crate::order::Function;
-use crate::snapshot::Snapshot;
 
 /// First bytes behind every handle, by which misuse is recognised. All FMUs made with this crate share the layout.
 #[repr(C)]
@@ -39,14 +38,14 @@ impl Head {
     ///
     /// # Safety
     /// `pointer` is null or points to a head.
-    unsafe fn recognise<M: Model>(pointer: *const c_void, magic: u64) -> bool {
+    unsafe fn recognise<M: Exported>(pointer: *const c_void, magic: u64) -> bool {
         let pointer = pointer.cast::<Self>();
         if pointer.is_null() || !pointer.is_aligned() {
             return false;
         }
         // SAFETY: aligned, not null, and the caller vouches for what it points to.
         let head = unsafe { &*pointer };
-        head.magic.load(Ordering::Acquire) == magic && guid::<M>().is_ok_and(|guid| head.guid == guid.into_bytes())
+        head.magic.load(Ordering::Acquire) == magic && own_guid::<M>().is_ok_and(|guid| head.guid == guid.into_bytes())
     }
 }
 
@@ -61,7 +60,7 @@ pub(super) struct Handle<M> {
     instance: UnsafeCell<Instance<M>>,
 }
 
-impl<M: Model> Handle<M> {
+impl<M: Exported> Handle<M> {
     pub(super) fn new(guid: Uuid, sink: Sink, instance: Instance<M>) -> Self {
         Self {
             head: Head::new(INSTANCE, guid),
@@ -137,7 +136,7 @@ pub(super) struct SavedState<M> {
     pub(super) snapshot: Snapshot<M>,
 }
 
-impl<M: Model> SavedState<M> {
+impl<M: Exported> SavedState<M> {
     /// A new handle, owned by the host until it frees it.
     pub(super) fn into_raw(guid: Uuid, snapshot: Snapshot<M>) -> *mut c_void {
         let state = Self {

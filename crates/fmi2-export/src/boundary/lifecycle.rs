@@ -3,19 +3,19 @@
 use std::ffi::{CStr, c_char, c_int};
 use std::ptr;
 
+use fmi_model::{Experiment, Wanted, braced, guarded};
 use fmi2_abi::{
     FMI_VERSION, Fmi2Boolean, Fmi2CallbackFunctions, Fmi2Component, Fmi2Real, Fmi2Status, Fmi2String, Fmi2Type,
-    RawStatus, TYPES_PLATFORM,
+    RawStatus, TYPES_PLATFORM, truth,
 };
 
+use super::call::call;
 use super::handle::Handle;
-use super::{call, memory};
-use crate::description::{braced, guid};
+use super::memory;
 use crate::error::CallError;
-use crate::guard::guarded;
+use crate::identity::{Exported, own_guid};
 use crate::instance::Instance;
 use crate::log::{Logger, Sink};
-use crate::model::{Experiment, Model};
 use crate::order;
 
 pub fn get_types_platform() -> *const c_char {
@@ -26,7 +26,7 @@ pub fn get_version() -> *const c_char {
     FMI_VERSION.as_ptr()
 }
 
-pub unsafe fn set_debug_logging<M: Model>(
+pub unsafe fn set_debug_logging<M: Exported>(
     component: Fmi2Component,
     logging_on: Fmi2Boolean,
     count: usize,
@@ -39,14 +39,14 @@ pub unsafe fn set_debug_logging<M: Model>(
                 .iter()
                 .map(|category| memory::text("categories", *category))
                 .collect::<Result<Vec<_>, _>>()?;
-            instance.set_debug_logging(logging_on != 0, &categories)
+            instance.set_debug_logging(truth(logging_on), &categories)
         })
     }
 }
 
 /// Answers null for a wrong GUID, an interface other than co-simulation, an empty name, or a faulty definition, and says which to
 /// the logger. Resource location and visibility are not used.
-pub unsafe fn instantiate<M: Model>(
+pub unsafe fn instantiate<M: Exported>(
     name: Fmi2String,
     fmu_type: c_int,
     guid: Fmi2String,
@@ -70,7 +70,7 @@ pub unsafe fn instantiate<M: Model>(
     let created = guarded(|| {
         // SAFETY: `name` and `guid` are strings; see the module.
         let (name, guid) = unsafe { (memory::text("instanceName", name), memory::text("fmuGUID", guid)) };
-        let created = create::<M>(name, fmu_type, guid, logging_on != 0, &sink);
+        let created = create::<M>(name, fmu_type, guid, truth(logging_on), &sink);
         created.map_err(|error| error.chain())
     });
     let (status, reason) = match created {
@@ -83,7 +83,7 @@ pub unsafe fn instantiate<M: Model>(
     ptr::null_mut()
 }
 
-fn create<M: Model>(
+fn create<M: Exported>(
     name: Result<&str, CallError>,
     fmu_type: c_int,
     given: Result<&str, CallError>,
@@ -98,7 +98,7 @@ fn create<M: Model>(
         Some(Fmi2Type::ModelExchange) => return Err(CallError::CoSimulationOnly),
         None => return Err(CallError::UnknownType { raw: fmu_type }),
     }
-    let guid = guid::<M>()?;
+    let guid = own_guid::<M>()?;
     let (given, own) = (given?, braced(guid));
     if given != own {
         return Err(CallError::WrongGuid {
@@ -106,12 +106,15 @@ fn create<M: Model>(
             own,
         });
     }
-    let instance = Instance::new(Logger::new(sink.clone(), logging_on));
+    let instance = Instance::new(Logger {
+        sink: sink.clone(),
+        wanted: Wanted::new(logging_on, &[]),
+    });
     Ok(Box::new(Handle::new(guid, sink.clone(), instance)))
 }
 
 /// Frees the instance in whatever phase it is. Null is fine.
-pub unsafe fn free_instance<M: Model>(component: Fmi2Component) {
+pub unsafe fn free_instance<M: Exported>(component: Fmi2Component) {
     // SAFETY: `component` is null or an instance; see the module.
     let Ok(Some(handle)) = guarded(|| unsafe { Handle::<M>::recognise(component) }) else {
         return;
@@ -130,7 +133,7 @@ pub unsafe fn free_instance<M: Model>(component: Fmi2Component) {
     }
 }
 
-pub unsafe fn setup_experiment<M: Model>(
+pub unsafe fn setup_experiment<M: Exported>(
     component: Fmi2Component,
     tolerance_defined: Fmi2Boolean,
     tolerance: Fmi2Real,
@@ -140,8 +143,8 @@ pub unsafe fn setup_experiment<M: Model>(
 ) -> RawStatus {
     let experiment = Experiment {
         start_time,
-        stop_time: (stop_time_defined != 0).then_some(stop_time),
-        tolerance: (tolerance_defined != 0).then_some(tolerance),
+        stop_time: truth(stop_time_defined).then_some(stop_time),
+        tolerance: truth(tolerance_defined).then_some(tolerance),
     };
     // SAFETY: see the module.
     unsafe {
@@ -151,7 +154,7 @@ pub unsafe fn setup_experiment<M: Model>(
     }
 }
 
-pub unsafe fn enter_initialization_mode<M: Model>(component: Fmi2Component) -> RawStatus {
+pub unsafe fn enter_initialization_mode<M: Exported>(component: Fmi2Component) -> RawStatus {
     // SAFETY: see the module.
     unsafe {
         call::<M>(
@@ -162,7 +165,7 @@ pub unsafe fn enter_initialization_mode<M: Model>(component: Fmi2Component) -> R
     }
 }
 
-pub unsafe fn exit_initialization_mode<M: Model>(component: Fmi2Component) -> RawStatus {
+pub unsafe fn exit_initialization_mode<M: Exported>(component: Fmi2Component) -> RawStatus {
     // SAFETY: see the module.
     unsafe {
         call::<M>(
@@ -173,12 +176,12 @@ pub unsafe fn exit_initialization_mode<M: Model>(component: Fmi2Component) -> Ra
     }
 }
 
-pub unsafe fn terminate<M: Model>(component: Fmi2Component) -> RawStatus {
+pub unsafe fn terminate<M: Exported>(component: Fmi2Component) -> RawStatus {
     // SAFETY: see the module.
     unsafe { call::<M>(component, &order::TERMINATE, Instance::terminate) }
 }
 
-pub unsafe fn reset<M: Model>(component: Fmi2Component) -> RawStatus {
+pub unsafe fn reset<M: Exported>(component: Fmi2Component) -> RawStatus {
     // SAFETY: see the module.
     unsafe { call::<M>(component, &order::RESET, Instance::reset) }
 }

@@ -14,6 +14,7 @@
 )]
 #![allow(missing_docs, reason = "each function is that of the standard with the same name")]
 
+mod call;
 mod handle;
 mod lifecycle;
 mod memory;
@@ -22,36 +23,8 @@ mod states;
 mod steps;
 mod values;
 
-use fmi2_abi::{Fmi2Component, Fmi2Status, RawStatus};
-
-use crate::guard::guarded;
-use crate::instance::{Answer, Instance};
-use crate::model::Model;
-use crate::order::Function;
-use handle::Handle;
-
 pub use lifecycle::*;
 pub use model_exchange::*;
 pub use states::*;
 pub use steps::*;
 pub use values::*;
-
-/// Runs `body` on the instance behind `component`. Without a recognisable instance there is no logger to tell, and the answer is
-/// `fmi2Error`.
-///
-/// # Safety
-/// See the module.
-unsafe fn call<M: Model>(
-    component: Fmi2Component,
-    function: &Function,
-    body: impl FnOnce(&mut Instance<M>) -> Answer,
-) -> RawStatus {
-    // SAFETY: `component` is null or an instance, as the caller vouches.
-    let Ok(Some(handle)) = guarded(|| unsafe { Handle::<M>::recognise(component) }) else {
-        return Fmi2Status::Error.raw();
-    };
-    match handle.claim(function) {
-        Some(mut instance) => instance.run(function, body).raw(),
-        None => Fmi2Status::Error.raw(),
-    }
-}

@@ -2,12 +2,12 @@
 
 use fmi2_abi::{Fmi2Boolean, Fmi2Component, Fmi2EventInfo, Fmi2Real, RawStatus};
 
-use super::call;
+use super::call::call;
 use crate::error::CallError;
-use crate::model::Model;
+use crate::identity::Exported;
 use crate::order::{self, Function};
 
-unsafe fn refuse<M: Model>(component: Fmi2Component, function: &Function) -> RawStatus {
+unsafe fn refuse<M: Exported>(component: Fmi2Component, function: &Function) -> RawStatus {
     // SAFETY: see the module above.
     unsafe { call::<M>(component, function, |_| Err(CallError::CoSimulationOnly)) }
 }
@@ -15,7 +15,7 @@ unsafe fn refuse<M: Model>(component: Fmi2Component, function: &Function) -> Raw
 macro_rules! refused {
     ($($name:ident($($argument:ty),*) as $function:ident;)*) => {
         $(
-            pub unsafe fn $name<M: Model>(component: Fmi2Component, $(_: $argument),*) -> RawStatus {
+            pub unsafe fn $name<M: Exported>(component: Fmi2Component, $(_: $argument),*) -> RawStatus {
                 // SAFETY: see the module above; the other arguments are not looked at.
                 unsafe { refuse::<M>(component, &order::$function) }
             }

@@ -2,34 +2,34 @@
 
 use std::ptr;
 
+use fmi_model::Snapshot;
 use fmi2_abi::{Fmi2Byte, Fmi2Component, Fmi2FmuState, Fmi2Status, RawStatus};
 
+use super::call::call;
 use super::handle::SavedState;
-use super::{call, memory};
-use crate::description::guid;
+use super::memory;
 use crate::error::CallError;
-use crate::model::Model;
+use crate::identity::{Exported, own_guid, seal};
 use crate::order;
-use crate::snapshot::Snapshot;
 
 /// The state behind the argument `FMUstate`.
 ///
 /// # Safety
 /// `state` is null or a state that lives through `'a`; see the module.
-unsafe fn saved<'a, M: Model>(state: Fmi2FmuState) -> Result<&'a SavedState<M>, CallError> {
+unsafe fn saved<'a, M: Exported>(state: Fmi2FmuState) -> Result<&'a SavedState<M>, CallError> {
     // SAFETY: the caller vouches for the same.
     unsafe { SavedState::<M>::recognise(state) }.ok_or(CallError::ForeignState { argument: "FMUstate" })
 }
 
 /// A handle that is not null is filled anew.
-pub unsafe fn get_fmu_state<M: Model>(component: Fmi2Component, state: *mut Fmi2FmuState) -> RawStatus {
+pub unsafe fn get_fmu_state<M: Exported>(component: Fmi2Component, state: *mut Fmi2FmuState) -> RawStatus {
     // SAFETY: `state` points to null or to a state of this FMU; see the module.
     unsafe {
         call::<M>(component, &order::GET_FMU_STATE, |instance| {
             let handle = memory::array("FMUstate", state.cast_const(), 1)?[0];
             if handle.is_null() {
                 let snapshot = instance.state().clone();
-                state.write(SavedState::into_raw(guid::<M>()?, snapshot));
+                state.write(SavedState::into_raw(own_guid::<M>()?, snapshot));
             } else {
                 saved::<M>(handle)?;
                 SavedState::<M>::replace(handle, instance.state().clone());
@@ -39,7 +39,7 @@ pub unsafe fn get_fmu_state<M: Model>(component: Fmi2Component, state: *mut Fmi2
     }
 }
 
-pub unsafe fn set_fmu_state<M: Model>(component: Fmi2Component, state: Fmi2FmuState) -> RawStatus {
+pub unsafe fn set_fmu_state<M: Exported>(component: Fmi2Component, state: Fmi2FmuState) -> RawStatus {
     // SAFETY: see the module.
     unsafe {
         call::<M>(component, &order::SET_FMU_STATE, |instance| {
@@ -49,7 +49,7 @@ pub unsafe fn set_fmu_state<M: Model>(component: Fmi2Component, state: Fmi2FmuSt
 }
 
 /// Sets the handle to null. A handle that is null already is fine.
-pub unsafe fn free_fmu_state<M: Model>(component: Fmi2Component, state: *mut Fmi2FmuState) -> RawStatus {
+pub unsafe fn free_fmu_state<M: Exported>(component: Fmi2Component, state: *mut Fmi2FmuState) -> RawStatus {
     // SAFETY: `state` points to null or to a state of this FMU, which is not used afterwards; see the module.
     unsafe {
         call::<M>(component, &order::FREE_FMU_STATE, |_| {
@@ -64,7 +64,7 @@ pub unsafe fn free_fmu_state<M: Model>(component: Fmi2Component, state: *mut Fmi
     }
 }
 
-pub unsafe fn serialized_fmu_state_size<M: Model>(
+pub unsafe fn serialized_fmu_state_size<M: Exported>(
     component: Fmi2Component,
     state: Fmi2FmuState,
     size: *mut usize,
@@ -73,14 +73,14 @@ pub unsafe fn serialized_fmu_state_size<M: Model>(
     unsafe {
         call::<M>(component, &order::SERIALIZED_FMU_STATE_SIZE, |_| {
             let size = memory::place("size", size)?;
-            size.write(saved::<M>(state)?.snapshot.to_bytes(guid::<M>()?)?.len());
+            size.write(saved::<M>(state)?.snapshot.to_bytes(&seal::<M>()?)?.len());
             Ok(Fmi2Status::Ok)
         })
     }
 }
 
 /// A buffer larger than needed is fine; the rest of it is left alone.
-pub unsafe fn serialize_fmu_state<M: Model>(
+pub unsafe fn serialize_fmu_state<M: Exported>(
     component: Fmi2Component,
     state: Fmi2FmuState,
     buffer: *mut Fmi2Byte,
@@ -89,7 +89,7 @@ pub unsafe fn serialize_fmu_state<M: Model>(
     // SAFETY: `buffer` has room for `size` bytes; see the module.
     unsafe {
         call::<M>(component, &order::SERIALIZE_FMU_STATE, |_| {
-            let bytes = saved::<M>(state)?.snapshot.to_bytes(guid::<M>()?)?;
+            let bytes = saved::<M>(state)?.snapshot.to_bytes(&seal::<M>()?)?;
             let buffer = memory::room("serializedState", buffer.cast::<u8>(), size)?;
             if buffer.len() < bytes.len() {
                 return Err(CallError::BufferTooSmall {
@@ -106,7 +106,7 @@ pub unsafe fn serialize_fmu_state<M: Model>(
 }
 
 /// Always makes a new state: what `state` points to before the call is not looked at, since hosts need not initialise it.
-pub unsafe fn de_serialize_fmu_state<M: Model>(
+pub unsafe fn de_serialize_fmu_state<M: Exported>(
     component: Fmi2Component,
     bytes: *const Fmi2Byte,
     size: usize,
@@ -117,9 +117,9 @@ pub unsafe fn de_serialize_fmu_state<M: Model>(
         call::<M>(component, &order::DE_SERIALIZE_FMU_STATE, |_| {
             let bytes = memory::array("serializedState", bytes.cast::<u8>(), size)?;
             let state = memory::place("FMUstate", state)?;
-            let guid = guid::<M>()?;
-            let snapshot = Snapshot::<M>::from_bytes(bytes, guid)?;
-            state.write(SavedState::into_raw(guid, snapshot));
+            let seal = seal::<M>()?;
+            let snapshot = Snapshot::<M>::from_bytes(bytes, &seal)?;
+            state.write(SavedState::into_raw(seal.guid, snapshot));
             Ok(Fmi2Status::Ok)
         })
     }

@@ -3,17 +3,18 @@
 use std::ffi::c_int;
 
 use fmi2_abi::{
-    FMI2_FALSE, FMI2_TRUE, Fmi2Boolean, Fmi2Component, Fmi2Integer, Fmi2Real, Fmi2Status, Fmi2StatusKind, Fmi2String,
-    Fmi2ValueReference, RawStatus,
+    Fmi2Boolean, Fmi2Component, Fmi2Integer, Fmi2Real, Fmi2Status, Fmi2StatusKind, Fmi2String, Fmi2ValueReference,
+    RawStatus, boolean,
 };
 
-use super::{call, memory};
+use super::call::call;
+use super::memory;
 use crate::error::CallError;
+use crate::identity::Exported;
 use crate::instance::{Instance, not_available};
-use crate::model::Model;
 use crate::order::{self, Function};
 
-pub unsafe fn do_step<M: Model>(
+pub unsafe fn do_step<M: Exported>(
     component: Fmi2Component,
     t: Fmi2Real,
     h: Fmi2Real,
@@ -23,13 +24,13 @@ pub unsafe fn do_step<M: Model>(
     unsafe { call::<M>(component, &order::DO_STEP, |instance| instance.do_step(t, h)) }
 }
 
-pub unsafe fn cancel_step<M: Model>(component: Fmi2Component) -> RawStatus {
+pub unsafe fn cancel_step<M: Exported>(component: Fmi2Component) -> RawStatus {
     // SAFETY: see the module.
     unsafe { not_supported::<M>(component, &order::CANCEL_STEP, "no step is ever pending") }
 }
 
 /// Answers a status query from `value`.
-unsafe fn status<M: Model, C>(
+unsafe fn status<M: Exported, C>(
     component: Fmi2Component,
     function: &Function,
     kind: c_int,
@@ -47,7 +48,7 @@ unsafe fn status<M: Model, C>(
     }
 }
 
-pub unsafe fn get_status<M: Model>(component: Fmi2Component, kind: c_int, value: *mut RawStatus) -> RawStatus {
+pub unsafe fn get_status<M: Exported>(component: Fmi2Component, kind: c_int, value: *mut RawStatus) -> RawStatus {
     // SAFETY: see the module.
     unsafe {
         status::<M, _>(component, &order::GET_STATUS, kind, value, |_, kind| {
@@ -56,12 +57,12 @@ pub unsafe fn get_status<M: Model>(component: Fmi2Component, kind: c_int, value:
     }
 }
 
-pub unsafe fn get_real_status<M: Model>(component: Fmi2Component, kind: c_int, value: *mut Fmi2Real) -> RawStatus {
+pub unsafe fn get_real_status<M: Exported>(component: Fmi2Component, kind: c_int, value: *mut Fmi2Real) -> RawStatus {
     // SAFETY: see the module.
     unsafe { status::<M, _>(component, &order::GET_REAL_STATUS, kind, value, Instance::real_status) }
 }
 
-pub unsafe fn get_integer_status<M: Model>(
+pub unsafe fn get_integer_status<M: Exported>(
     component: Fmi2Component,
     kind: c_int,
     value: *mut Fmi2Integer,
@@ -74,7 +75,7 @@ pub unsafe fn get_integer_status<M: Model>(
     }
 }
 
-pub unsafe fn get_boolean_status<M: Model>(
+pub unsafe fn get_boolean_status<M: Exported>(
     component: Fmi2Component,
     kind: c_int,
     value: *mut Fmi2Boolean,
@@ -82,13 +83,16 @@ pub unsafe fn get_boolean_status<M: Model>(
     // SAFETY: see the module.
     unsafe {
         status::<M, _>(component, &order::GET_BOOLEAN_STATUS, kind, value, |instance, kind| {
-            let value = instance.boolean_status(kind)?;
-            Ok(if value { FMI2_TRUE } else { FMI2_FALSE })
+            instance.boolean_status(kind).map(boolean)
         })
     }
 }
 
-pub unsafe fn get_string_status<M: Model>(component: Fmi2Component, kind: c_int, value: *mut Fmi2String) -> RawStatus {
+pub unsafe fn get_string_status<M: Exported>(
+    component: Fmi2Component,
+    kind: c_int,
+    value: *mut Fmi2String,
+) -> RawStatus {
     // SAFETY: see the module.
     unsafe {
         status::<M, _>(component, &order::GET_STRING_STATUS, kind, value, |_, kind| {
@@ -97,12 +101,12 @@ pub unsafe fn get_string_status<M: Model>(component: Fmi2Component, kind: c_int,
     }
 }
 
-unsafe fn not_supported<M: Model>(component: Fmi2Component, function: &Function, why: &'static str) -> RawStatus {
+unsafe fn not_supported<M: Exported>(component: Fmi2Component, function: &Function, why: &'static str) -> RawStatus {
     // SAFETY: see the module.
     unsafe { call::<M>(component, function, |_| Err(CallError::NotSupported { why })) }
 }
 
-pub unsafe fn set_real_input_derivatives<M: Model>(
+pub unsafe fn set_real_input_derivatives<M: Exported>(
     component: Fmi2Component,
     _references: *const Fmi2ValueReference,
     _count: usize,
@@ -119,7 +123,7 @@ pub unsafe fn set_real_input_derivatives<M: Model>(
     }
 }
 
-pub unsafe fn get_real_output_derivatives<M: Model>(
+pub unsafe fn get_real_output_derivatives<M: Exported>(
     component: Fmi2Component,
     _references: *const Fmi2ValueReference,
     _count: usize,
@@ -137,7 +141,7 @@ pub unsafe fn get_real_output_derivatives<M: Model>(
 }
 
 #[allow(clippy::too_many_arguments, reason = "the standard's seven and the instance")]
-pub unsafe fn get_directional_derivative<M: Model>(
+pub unsafe fn get_directional_derivative<M: Exported>(
     component: Fmi2Component,
     _unknowns: *const Fmi2ValueReference,
     _unknown_count: usize,

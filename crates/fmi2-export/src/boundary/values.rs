@@ -2,19 +2,19 @@
 
 use std::ffi::CString;
 
+use fmi_model::{Checked, Scalar};
 use fmi2_abi::{
-    FMI2_FALSE, FMI2_TRUE, Fmi2Boolean, Fmi2Component, Fmi2Integer, Fmi2Real, Fmi2String, Fmi2ValueReference, RawStatus,
+    Fmi2Boolean, Fmi2Component, Fmi2Integer, Fmi2Real, Fmi2String, Fmi2ValueReference, RawStatus, boolean, truth,
 };
 
-use super::{call, memory};
-use crate::check::Checked;
+use super::call::call;
+use super::memory;
 use crate::error::CallError;
-use crate::model::Model;
+use crate::identity::Exported;
 use crate::order::{self, Function};
-use crate::table::Scalar;
 
 /// Reads variables whose values are `T` in Rust and `C` in C.
-unsafe fn get<M: Model, T: Scalar, C>(
+unsafe fn get<M: Exported, T: Scalar, C>(
     component: Fmi2Component,
     function: &Function,
     references: *const Fmi2ValueReference,
@@ -35,7 +35,7 @@ unsafe fn get<M: Model, T: Scalar, C>(
 }
 
 /// Sets variables whose values are `T` in Rust and `C` in C.
-unsafe fn set<M: Model, T: Checked, C: Copy>(
+unsafe fn set<M: Exported, T: Checked, C: Copy>(
     component: Fmi2Component,
     function: &Function,
     references: *const Fmi2ValueReference,
@@ -53,7 +53,7 @@ unsafe fn set<M: Model, T: Checked, C: Copy>(
     }
 }
 
-pub unsafe fn get_real<M: Model>(
+pub unsafe fn get_real<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -64,7 +64,7 @@ pub unsafe fn get_real<M: Model>(
 }
 
 /// Enumerations are read here, too.
-pub unsafe fn get_integer<M: Model>(
+pub unsafe fn get_integer<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -74,22 +74,18 @@ pub unsafe fn get_integer<M: Model>(
     unsafe { get::<M, i32, _>(component, &order::GET_INTEGER, references, count, values, |value| value) }
 }
 
-pub unsafe fn get_boolean<M: Model>(
+pub unsafe fn get_boolean<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
     values: *mut Fmi2Boolean,
 ) -> RawStatus {
     // SAFETY: see the module.
-    unsafe {
-        get::<M, bool, _>(component, &order::GET_BOOLEAN, references, count, values, |value| {
-            if value { FMI2_TRUE } else { FMI2_FALSE }
-        })
-    }
+    unsafe { get::<M, bool, _>(component, &order::GET_BOOLEAN, references, count, values, boolean) }
 }
 
 /// The strings belong to the instance and hold until the next `fmi2GetString` on it.
-pub unsafe fn get_string<M: Model>(
+pub unsafe fn get_string<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -107,7 +103,7 @@ pub unsafe fn get_string<M: Model>(
     }
 }
 
-pub unsafe fn set_real<M: Model>(
+pub unsafe fn set_real<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -118,7 +114,7 @@ pub unsafe fn set_real<M: Model>(
 }
 
 /// Enumerations are set here, too.
-pub unsafe fn set_integer<M: Model>(
+pub unsafe fn set_integer<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -129,21 +125,17 @@ pub unsafe fn set_integer<M: Model>(
 }
 
 /// Any value but 0 is true, as in C.
-pub unsafe fn set_boolean<M: Model>(
+pub unsafe fn set_boolean<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
     values: *const Fmi2Boolean,
 ) -> RawStatus {
     // SAFETY: see the module.
-    unsafe {
-        set::<M, bool, _>(component, &order::SET_BOOLEAN, references, count, values, |value| {
-            value != FMI2_FALSE
-        })
-    }
+    unsafe { set::<M, bool, _>(component, &order::SET_BOOLEAN, references, count, values, truth) }
 }
 
-pub unsafe fn set_string<M: Model>(
+pub unsafe fn set_string<M: Exported>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,

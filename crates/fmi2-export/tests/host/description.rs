@@ -14,9 +14,9 @@ fn the_committed_description_is_that_of_the_probe() {
 }
 
 #[test]
-fn value_references_are_row_numbers() {
-    for (row, variable) in (0_u32..).zip(Probe::table().variables()) {
-        assert_eq!(Probe::table().find(&variable.name), Some(row));
+fn value_references_are_entry_numbers() {
+    for (number, entry) in (0_u32..).zip(Probe::table().entries()) {
+        assert_eq!(Probe::table().find(&entry.name()), Some(number));
     }
     assert_eq!(Probe::table().find("no such"), None);
 }

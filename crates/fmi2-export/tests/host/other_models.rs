@@ -7,8 +7,8 @@ use std::sync::OnceLock;
 
 use fmi2_export::abi::Fmi2Status;
 use fmi2_export::{
-    DefinitionError, Experiment, GoldenError, Log, Model, ModelError, ModelInfo, Table, TableBuilder, boundary,
-    golden_check, guid, render,
+    DefinitionError, Experiment, Exported, GoldenError, GuidCell, Log, Model, ModelError, ModelInfo, Table,
+    TableBuilder, boundary, golden_check, guid, render,
 };
 use serde::{Deserialize, Serialize};
 
@@ -37,6 +37,13 @@ impl<const KIND: u8> Other<KIND> {
 
 macro_rules! model {
     ($kind:ident) => {
+        impl Exported for Other<$kind> {
+            fn guid_cell() -> &'static GuidCell {
+                static CELL: GuidCell = GuidCell::new();
+                &CELL
+            }
+        }
+
         impl Model for Other<$kind> {
             fn info() -> &'static ModelInfo {
                 static INFO: OnceLock<ModelInfo> = OnceLock::new();
@@ -74,7 +81,7 @@ model!(WITHOUT_START);
 model!(PANICS_WHEN_MADE);
 model!(FORGETFUL);
 
-fn instantiate<M: Model>(guid: &str, journal: &Journal) -> (*mut c_void, Vec<Message>) {
+fn instantiate<M: Exported>(guid: &str, journal: &Journal) -> (*mut c_void, Vec<Message>) {
     let functions = callbacks(journal);
     let guid = CString::new(guid).unwrap();
     let (name, guid) = (c"other".as_ptr(), guid.as_ptr());

@@ -61,10 +61,10 @@ impl Model for Probe {
             license: "MIT",
             default_stop: 10.0,
             default_step: 0.5,
-            vendor_annotations: vec![VendorAnnotation {
-                tool: "bench",
-                content: Element::new("Preset").attribute("name", "100 % \"wild\""),
-            }],
+            vendor_annotations: vec![VendorAnnotation::new(
+                "bench",
+                Element::new("Preset").attribute("name", "100 % \"wild\""),
+            )],
             ..ModelInfo::default()
         })
     }

@@ -26,7 +26,7 @@ enum Call {
 
 fn reference() -> impl Strategy<Value = u32> {
     // a few beyond the last, and not the switch that makes the probe misbehave
-    1..u32::try_from(Probe::table().variables().len() + 3).unwrap()
+    1..u32::try_from(Probe::table().entry_count() + 3).unwrap()
 }
 
 fn real() -> impl Strategy<Value = f64> {

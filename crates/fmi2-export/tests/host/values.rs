@@ -101,7 +101,7 @@ fn refused_sets_change_nothing_and_say_why() {
         assert_eq!(host.bytes(), Host::new().bytes());
     }
     let host = Host::new();
-    let (count, bad) = (u32::try_from(Probe::table().variables().len()).unwrap(), u32::MAX);
+    let (count, bad) = (u32::try_from(Probe::table().entry_count()).unwrap(), u32::MAX);
     for reference in [count, bad] {
         assert_eq!(host.set_real(&[reference], &[1.0]), Error);
         let reason = host.reason(Error);

@@ -1,49 +1,23 @@
 //! A running instance behind safe methods.
 
-mod state;
+mod states;
 
 use std::ffi::{CString, c_char};
-use std::fmt;
 use std::ptr::NonNull;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use fmi2_abi::{
-    FMI2_FALSE, FMI2_TRUE, Fmi2Boolean, Fmi2CallbackFunctions, Fmi2Component, Fmi2Status, Fmi2StatusKind, Fmi2String,
-    Fmi2Type, RawStatus,
+    FMI2_FALSE, Fmi2Boolean, Fmi2CallbackFunctions, Fmi2Component, Fmi2Status, Fmi2StatusKind, Fmi2String, Fmi2Type,
+    RawStatus, boolean, truth,
 };
 
 use crate::ImportError;
 use crate::description::ModelDescription;
+use crate::handles::{Handle, Handles, Phase};
 use crate::library::Binary;
 use crate::logger::{LogMessage, Sink, text};
-
-pub use state::FmuState;
-use state::Handles;
-
-/// A status as it arrived from the FMU.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Status {
-    /// One of the six of the standard.
-    Known(Fmi2Status),
-    /// A number that the standard does not know; treated as an error.
-    Unknown(i32),
-}
-
-impl Status {
-    pub(crate) fn from_raw(raw: RawStatus) -> Self {
-        Fmi2Status::from_raw(raw).map_or(Self::Unknown(raw), Self::Known)
-    }
-}
-
-impl fmt::Display for Status {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Known(status) => status.fmt(f),
-            Self::Unknown(raw) => write!(f, "{raw}, which is no fmi2Status,"),
-        }
-    }
-}
+use crate::status::Status;
 
 /// How a call that succeeded ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,19 +38,6 @@ pub struct Experiment {
     pub stop_time: Option<f64>,
     /// Relative tolerance for slaves that control their own error.
     pub tolerance: Option<f64>,
-}
-
-/// Where an instance is in its life cycle, as far as its end is concerned.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Phase {
-    /// Not yet stepping.
-    Starting,
-    /// Initialized, to be terminated before it is freed.
-    Stepping,
-    /// Terminated.
-    Terminated,
-    /// A call ended in an error; to be freed without further ado.
-    Failed,
 }
 
 /// One instance of an FMU.
@@ -372,7 +333,7 @@ impl Instance {
         });
         if result.is_ok() {
             for (value, raw) in values.iter_mut().zip(&raw) {
-                *value = *raw != FMI2_FALSE;
+                *value = truth(*raw);
             }
         }
         self.booleans = raw;
@@ -446,7 +407,7 @@ impl Instance {
             let answer = self.call("fmi2GetBooleanStatus", |component| unsafe {
                 call(component, kind, &raw mut terminated)
             });
-            if answer.is_ok() && terminated != FMI2_FALSE {
+            if answer.is_ok() && truth(terminated) {
                 messages.push("the FMU asks to end the simulation".to_owned());
             }
         }
@@ -515,6 +476,16 @@ impl Instance {
         })
     }
 
+    fn free_state(&mut self, handle: Handle) {
+        if let Some(functions) = self.binary.functions.states {
+            let mut raw = handle.0;
+            // SAFETY: the handle was made by this instance, and nobody else holds it any more.
+            let _ = self.call("fmi2FreeFMUstate", |component| unsafe {
+                (functions.free)(component, &raw mut raw)
+            });
+        }
+    }
+
     fn c_strings<S: AsRef<str>>(&self, function: &'static str, texts: &[S]) -> Result<Vec<CString>, ImportError> {
         texts
             .iter()
@@ -546,10 +517,6 @@ impl Drop for Instance {
         drop(unsafe { Box::from_raw(self.callbacks.as_ptr()) });
         self.binary.alive.fetch_sub(1, Ordering::AcqRel);
     }
-}
-
-fn boolean(value: bool) -> Fmi2Boolean {
-    if value { FMI2_TRUE } else { FMI2_FALSE }
 }
 
 fn c_string(instance: &str, function: &'static str, text: &str) -> Result<CString, ImportError> {

@@ -7,11 +7,12 @@ mod resolve;
 
 use std::path::Path;
 
-use quick_xml::events::Event;
+use quick_xml::XmlVersion;
+use quick_xml::events::{BytesStart, Event};
 use serde::Deserialize;
 
 use crate::ImportError;
-use crate::description::ModelDescription;
+use crate::description::{ModelDescription, VendorAnnotation};
 use raw::{RawDescription, RawRoot};
 use resolve::Resolver;
 
@@ -22,7 +23,7 @@ use resolve::Resolver;
 /// [`ImportError::InvalidDescription`].
 pub(crate) fn parse(xml: &[u8], path: &Path) -> Result<ModelDescription, ImportError> {
     let xml = std::str::from_utf8(xml).map_err(|e| malformed(path, xml, e.valid_up_to(), "not UTF-8".to_owned()))?;
-    check_well_formed(xml, path)?;
+    let annotations = walk(xml, path)?;
     // The version comes first: other versions of the standard have other elements.
     let root: RawRoot = deserialize(xml, path)?;
     if root.fmi_version != "2.0" {
@@ -32,7 +33,7 @@ pub(crate) fn parse(xml: &[u8], path: &Path) -> Result<ModelDescription, ImportE
         });
     }
     let raw: RawDescription = deserialize(xml, path)?;
-    Resolver { path }.description(raw)
+    Resolver { path }.description(raw, annotations)
 }
 
 fn malformed(path: &Path, xml: &[u8], offset: usize, reason: String) -> ImportError {
@@ -46,36 +47,72 @@ fn malformed(path: &Path, xml: &[u8], offset: usize, reason: String) -> ImportEr
     }
 }
 
-/// Walks all tags, since the reader behind serde skips over elements that nobody asked for and ends at the root's end tag.
-fn check_well_formed(xml: &str, path: &Path) -> Result<(), ImportError> {
+/// Walks all tags, since the reader behind serde skips over elements that nobody asked for and ends at the root's end tag; on
+/// the way it takes down what stands inside vendor annotations, which is not ours to read.
+fn walk(xml: &str, path: &Path) -> Result<Vec<VendorAnnotation>, ImportError> {
+    const TOOL: [&str; 3] = ["fmiModelDescription", "VendorAnnotations", "Tool"];
     let mut reader = quick_xml::Reader::from_str(xml);
-    let mut open: usize = 0;
+    let mut open: Vec<String> = Vec::new();
+    let mut found = Vec::new();
+    // Of the annotation that is open: the tool, and where its content begins.
+    let mut tool: Option<(String, usize)> = None;
     loop {
-        match reader.read_event() {
-            Ok(Event::Eof) if open == 0 => return Ok(()),
-            Ok(Event::Eof) => {
-                return Err(malformed(
-                    path,
-                    xml.as_bytes(),
-                    xml.len(),
-                    format!("the file ends with {open} element(s) open"),
-                ));
+        let before = offset(reader.buffer_position());
+        let fail = |reader: &quick_xml::Reader<&[u8]>, reason: String| {
+            malformed(path, xml.as_bytes(), offset(reader.error_position()), reason)
+        };
+        match reader.read_event().map_err(|e| fail(&reader, e.to_string()))? {
+            Event::Eof if open.is_empty() => return Ok(found),
+            Event::Eof => {
+                let reason = format!("the file ends with {} element(s) open", open.len());
+                return Err(malformed(path, xml.as_bytes(), xml.len(), reason));
             }
-            Ok(Event::Start(_)) => open += 1,
-            Ok(Event::End(_)) => open = open.saturating_sub(1),
-            Ok(_) => {}
-            Err(e) => {
-                let offset = usize::try_from(reader.error_position()).unwrap_or(usize::MAX);
-                return Err(malformed(path, xml.as_bytes(), offset, e.to_string()));
+            Event::Start(tag) => {
+                open.push(tag.name().as_ref().to_owned());
+                if open == TOOL {
+                    let name = tool_name(&tag).map_err(|reason| fail(&reader, reason))?;
+                    tool = Some((name, offset(reader.buffer_position())));
+                }
             }
+            Event::Empty(tag) if open == TOOL[..2] && tag.name().as_ref() == TOOL[2] => {
+                found.push(VendorAnnotation {
+                    tool: tool_name(&tag).map_err(|reason| fail(&reader, reason))?,
+                    xml: String::new(),
+                });
+            }
+            Event::End(_) => {
+                if open == TOOL
+                    && let Some((tool, begin)) = tool.take()
+                {
+                    let content = xml.get(begin..before).unwrap_or_default();
+                    found.push(VendorAnnotation {
+                        tool,
+                        xml: content.trim().to_owned(),
+                    });
+                }
+                open.pop();
+            }
+            _ => {}
         }
     }
+}
+
+fn tool_name(tag: &BytesStart<'_>) -> Result<String, String> {
+    let name = tag.try_get_attribute("name").map_err(|e| e.to_string())?;
+    let text = name.map(|name| name.normalized_value(XmlVersion::Implicit1_0));
+    let text = text.transpose().map_err(|e| e.to_string())?;
+    Ok(text.unwrap_or_default().into_owned())
+}
+
+/// A position of the XML reader as an index.
+fn offset(position: u64) -> usize {
+    usize::try_from(position).unwrap_or(usize::MAX)
 }
 
 fn deserialize<'de, T: Deserialize<'de>>(xml: &'de str, path: &Path) -> Result<T, ImportError> {
     let mut source = quick_xml::de::Deserializer::from_str(xml);
     T::deserialize(&mut source).map_err(|e| {
-        let offset = usize::try_from(source.get_ref().get_ref().buffer_position()).unwrap_or(usize::MAX);
-        malformed(path, xml.as_bytes(), offset, e.to_string().replace("`@", "`"))
+        let end = offset(source.get_ref().get_ref().buffer_position());
+        malformed(path, xml.as_bytes(), end, e.to_string().replace("`@", "`"))
     })
 }

@@ -40,8 +40,6 @@ pub(super) struct RawDescription {
     pub(super) log_categories: RawLogCategories,
     #[serde(rename = "DefaultExperiment", default)]
     pub(super) default_experiment: RawExperiment,
-    #[serde(rename = "VendorAnnotations", default)]
-    pub(super) vendor_annotations: RawVendorAnnotations,
     #[serde(rename = "ModelVariables")]
     pub(super) model_variables: RawVariables,
 }
@@ -184,91 +182,6 @@ pub(super) struct RawCategory {
     pub(super) name: String,
     #[serde(rename = "@description")]
     pub(super) description: Option<String>,
-}
-
-// Fields of a tool's annotation are optional throughout, since another tool may use the same element names.
-#[derive(Deserialize, Default)]
-pub(super) struct RawVendorAnnotations {
-    #[serde(rename = "Tool", default)]
-    pub(super) tools: Vec<RawTool>,
-}
-
-#[derive(Deserialize)]
-pub(super) struct RawTool {
-    #[serde(rename = "@name", default)]
-    pub(super) name: String,
-    // The schema permits one element under a tool, so this holds the rest.
-    #[serde(rename = "Filters", default)]
-    pub(super) filters: Vec<RawFilters>,
-}
-
-#[derive(Deserialize)]
-pub(super) struct RawFilters {
-    #[serde(rename = "Presets", default)]
-    pub(super) presets: Vec<RawPresets>,
-    #[serde(rename = "Meaning", default)]
-    pub(super) meanings: Vec<RawMeanings>,
-    #[serde(rename = "Searches", default)]
-    pub(super) searches: Vec<RawSearches>,
-}
-
-#[derive(Deserialize)]
-pub(super) struct RawMeanings {
-    #[serde(rename = "Only", default)]
-    pub(super) only: Vec<RawOnly>,
-}
-
-#[derive(Deserialize)]
-pub(super) struct RawOnly {
-    #[serde(rename = "@filter")]
-    pub(super) filter: Option<String>,
-    #[serde(rename = "@scenarios")]
-    pub(super) scenarios: Option<String>,
-    #[serde(rename = "@why", default)]
-    pub(super) why: String,
-}
-
-#[derive(Deserialize)]
-pub(super) struct RawPresets {
-    #[serde(rename = "Preset", default)]
-    pub(super) presets: Vec<RawPreset>,
-}
-
-#[derive(Deserialize)]
-pub(super) struct RawPreset {
-    #[serde(rename = "@filter")]
-    pub(super) filter: Option<String>,
-    #[serde(rename = "@name")]
-    pub(super) name: Option<String>,
-    #[serde(rename = "@about", default)]
-    pub(super) about: String,
-    #[serde(rename = "Set", default)]
-    pub(super) sets: Vec<RawSet>,
-}
-
-#[derive(Deserialize)]
-pub(super) struct RawSet {
-    #[serde(rename = "@variable")]
-    pub(super) variable: Option<String>,
-    #[serde(rename = "@value")]
-    pub(super) value: Option<String>,
-}
-
-#[derive(Deserialize)]
-pub(super) struct RawSearches {
-    #[serde(rename = "Search", default)]
-    pub(super) searches: Vec<RawSearch>,
-}
-
-// Numbers are text here: another tool's element of that name may hold anything.
-#[derive(Deserialize)]
-pub(super) struct RawSearch {
-    #[serde(rename = "@variable")]
-    pub(super) variable: Option<String>,
-    #[serde(rename = "@low")]
-    pub(super) low: Option<String>,
-    #[serde(rename = "@high")]
-    pub(super) high: Option<String>,
 }
 
 #[derive(Deserialize)]

@@ -4,18 +4,12 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::raw::{
-    RawCoSimulation, RawDescription, RawInteger, RawOnly, RawPreset, RawReal, RawSearch, RawSet, RawTypes, RawUnit,
-    RawVariable,
-};
+use super::raw::{RawCoSimulation, RawDescription, RawInteger, RawReal, RawTypes, RawUnit, RawVariable};
 use crate::ImportError;
 use crate::description::{
     BaseUnit, Causality, CoSimulation, DefaultExperiment, DisplayUnit, EnumerationItem, EnumerationType, Initial,
-    LogCategory, Meaning, ModelDescription, Preset, Search, Unit, Variability, Variable, VariableKind,
+    LogCategory, ModelDescription, Unit, Variability, Variable, VariableKind, VendorAnnotation,
 };
-
-/// Name of the `<Tool>` whose vendor annotation tells of presets, searches and meanings.
-const OUR_TOOL: &str = "trade-harness";
 
 /// Turns raw elements into the public types.
 pub(super) struct Resolver<'a> {
@@ -38,7 +32,11 @@ impl Resolver<'_> {
         }
     }
 
-    pub(super) fn description(&self, raw: RawDescription) -> Result<ModelDescription, ImportError> {
+    pub(super) fn description(
+        &self,
+        raw: RawDescription,
+        vendor_annotations: Vec<VendorAnnotation>,
+    ) -> Result<ModelDescription, ImportError> {
         let co_simulation = raw.co_simulation.ok_or_else(|| ImportError::NotCoSimulation {
             path: self.path.to_owned(),
         })?;
@@ -58,19 +56,6 @@ impl Resolver<'_> {
             variables.push(self.variable(variable, &types)?);
         }
 
-        let (mut presets, mut searches, mut meanings) = (Vec::new(), Vec::new(), Vec::new());
-        let ours = raw.vendor_annotations.tools.into_iter().filter(|t| t.name == OUR_TOOL);
-        for told in ours.flat_map(|tool| tool.filters) {
-            for preset in told.presets.into_iter().flat_map(|list| list.presets) {
-                presets.push(self.preset(preset)?);
-            }
-            for search in told.searches.into_iter().flat_map(|list| list.searches) {
-                searches.push(self.search(search)?);
-            }
-            for only in told.meanings.into_iter().flat_map(|list| list.only) {
-                meanings.push(self.meaning(only)?);
-            }
-        }
         Ok(ModelDescription {
             model_name: raw.model_name,
             guid: raw.guid,
@@ -101,9 +86,7 @@ impl Resolver<'_> {
                 })
                 .collect(),
             variables,
-            presets,
-            meanings,
-            searches,
+            vendor_annotations,
             index,
         })
     }
@@ -183,51 +166,6 @@ impl Resolver<'_> {
             variability,
             initial,
             kind,
-        })
-    }
-
-    fn annotated(&self, text: Option<String>, missing: &str) -> Result<String, ImportError> {
-        text.ok_or_else(|| self.invalid(format!("{OUR_TOOL} annotation: {missing}")))
-    }
-
-    fn preset(&self, raw: RawPreset) -> Result<Preset, ImportError> {
-        let set = |set: RawSet| {
-            Ok((
-                self.annotated(set.variable, "a Set has no variable attribute")?,
-                self.annotated(set.value, "a Set has no value attribute")?,
-            ))
-        };
-        Ok(Preset {
-            filter: self.annotated(raw.filter, "a Preset has no filter attribute")?,
-            name: self.annotated(raw.name, "a Preset has no name attribute")?,
-            about: raw.about,
-            sets: raw.sets.into_iter().map(set).collect::<Result<_, ImportError>>()?,
-        })
-    }
-
-    fn meaning(&self, raw: RawOnly) -> Result<Meaning, ImportError> {
-        let scenarios = self.annotated(raw.scenarios, "an Only has no scenarios attribute")?;
-        Ok(Meaning {
-            filter: self.annotated(raw.filter, "an Only has no filter attribute")?,
-            scenarios: scenarios.split(',').map(|name| name.trim().to_owned()).collect(),
-            why: raw.why,
-        })
-    }
-
-    fn search(&self, raw: RawSearch) -> Result<Search, ImportError> {
-        let number = |text: Option<String>, what: &str| {
-            let text = self.annotated(text, &format!("a Search has no {what} attribute"))?;
-            let number = text.trim().parse::<f64>().ok();
-            number.ok_or_else(|| {
-                self.invalid(format!(
-                    "{OUR_TOOL} annotation: {what} {text:?} of a Search is no number"
-                ))
-            })
-        };
-        Ok(Search {
-            variable: self.annotated(raw.variable, "a Search has no variable attribute")?,
-            low: number(raw.low, "low")?,
-            high: number(raw.high, "high")?,
         })
     }
 }

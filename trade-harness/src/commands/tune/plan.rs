@@ -24,7 +24,11 @@ fn choices(args: &TuneArgs, cast: &Cast) -> Vec<FilterChoice> {
     if !args.study.filters.is_empty() {
         return args.study.filters.iter().filter_map(|f| f.0.clone()).collect();
     }
-    let items = cast.models.nav.iter().flat_map(|nav| nav.fmu.description().filters());
+    let items = cast
+        .models
+        .nav
+        .iter()
+        .flat_map(|nav| nav.fmu.description().items("filter"));
     let names = items.map(|item| item.name.as_str()).chain(OTHER_READINGS);
     names.filter_map(|name| name.parse().ok()).collect()
 }
@@ -92,7 +96,7 @@ impl Plan {
         let mut choices = choices(args, cast);
         if let Some(nav) = &models.nav {
             choices.retain(
-                |choice| match nav.fmu.description().without_meaning(&choice.name, scenario.name) {
+                |choice| match nav.filters.without_meaning(&choice.name, scenario.name) {
                     Some(why) => {
                         note(&format!(
                             "note: {} is left out of {}: {why}",

@@ -1,4 +1,4 @@
-//! The one guard between Rust and C.
+//! The one guard between a model and a caller that knows no panics.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -7,7 +7,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 ///
 /// Whatever `body` was changing when it panicked must not be used again: callers put the instance into the fatal phase or drop
 /// it.
-pub(crate) fn guarded<T>(body: impl FnOnce() -> T) -> Result<T, String> {
+///
+/// # Errors
+/// The message of the panic.
+pub fn guarded<T>(body: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(body)).map_err(panic_message)
 }
 

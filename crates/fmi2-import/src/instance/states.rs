@@ -1,77 +1,14 @@
-//! Saved states of an instance, which free themselves.
+//! Saving, setting and carrying states.
 
 use std::ffi::c_char;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 use fmi2_abi::Fmi2FmuState;
 
-use super::{Instance, Phase};
+use super::Instance;
 use crate::ImportError;
+use crate::handles::{FmuState, Handle, Phase};
 use crate::library::{SerializationFunctions, StateFunctions};
-
-/// A saved state of the instance that made it. Its memory in the FMU is released after it is dropped.
-#[derive(Debug)]
-pub struct FmuState {
-    handle: Handle,
-    /// Where in its life cycle the instance was.
-    phase: Phase,
-    owner: Arc<Handles>,
-}
-
-impl Drop for FmuState {
-    fn drop(&mut self) {
-        self.owner.release(self.handle);
-    }
-}
-
-/// The FMU's pointer to a saved state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Handle(Fmi2FmuState);
-
-// SAFETY: the pointer is opaque here; it is only handed back to the FMU, by the one thread that holds the instance.
-unsafe impl Send for Handle {}
-// SAFETY: as above; a shared `Handle` gives no access to what it points to.
-unsafe impl Sync for Handle {}
-
-/// Every state that the FMU still holds memory for. Only the instance can free them, so dropped ones wait here.
-#[derive(Debug, Default)]
-pub(super) struct Handles {
-    list: Mutex<Vec<(Handle, InUse)>>,
-}
-
-type InUse = bool;
-
-impl Handles {
-    fn lock(&self) -> MutexGuard<'_, Vec<(Handle, InUse)>> {
-        // Each change is one operation on the list, so a poisoned lock holds a usable value.
-        self.list.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn add(&self, handle: Handle) {
-        self.lock().push((handle, true));
-    }
-
-    fn release(&self, handle: Handle) {
-        for (known, in_use) in self.lock().iter_mut() {
-            if *known == handle {
-                *in_use = false;
-            }
-        }
-    }
-
-    /// Removes and returns the handles that nobody uses any more.
-    fn take_released(&self) -> Vec<Handle> {
-        self.lock()
-            .extract_if(.., |(_, in_use)| !*in_use)
-            .map(|(handle, _)| handle)
-            .collect()
-    }
-
-    /// Removes and returns all handles, for an instance that is about to be freed.
-    pub(super) fn take_all(&self) -> Vec<Handle> {
-        self.lock().drain(..).map(|(handle, _)| handle).collect()
-    }
-}
 
 impl Instance {
     /// `fmi2GetFMUstate`: everything the instance needs to go on from here.
@@ -191,16 +128,6 @@ impl Instance {
     fn free_released_states(&mut self) {
         for handle in self.handles.take_released() {
             self.free_state(handle);
-        }
-    }
-
-    pub(super) fn free_state(&mut self, handle: Handle) {
-        if let Some(functions) = self.binary.functions.states {
-            let mut raw = handle.0;
-            // SAFETY: the handle was made by this instance, and nobody else holds it any more.
-            let _ = self.call("fmi2FreeFMUstate", |component| unsafe {
-                (functions.free)(component, &raw mut raw)
-            });
         }
     }
 }

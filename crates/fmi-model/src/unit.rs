@@ -1,11 +1,9 @@
 //! Units by their spelling: `m/s2`, `m2/s5`, `rad`, `m/s^2.5`.
 
-use crate::xml::{Element, number};
-
-/// Base units that FMI knows, with the attribute each has in `<BaseUnit>`; both are spelt alike.
+/// Base units that FMI knows; each has an attribute of the same spelling in `<BaseUnit>`.
 const BASE: [&str; 8] = ["kg", "m", "s", "A", "K", "mol", "cd", "rad"];
 
-/// Display units: base unit, name, factor (display value = factor * value).
+/// Display units: unit, display unit, factor.
 const DISPLAY: [(&str, &str, f64); 2] = [
     ("rad", "deg", 180.0 / std::f64::consts::PI),
     ("rad/s", "deg/s", 180.0 / std::f64::consts::PI),
@@ -13,7 +11,7 @@ const DISPLAY: [(&str, &str, f64); 2] = [
 
 /// A unit in terms of the SI base units.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Unit {
+pub struct Unit {
     name: String,
     /// One exponent for each of [`BASE`].
     exponents: [f64; BASE.len()],
@@ -22,7 +20,7 @@ pub(crate) struct Unit {
 impl Unit {
     /// Reads a product of powers with at most one `/`; what follows the `/` divides. Factors are parted by `.`, an exponent
     /// follows its symbol directly or after `^` (`^` also takes decimals), and `1` is no dimension.
-    pub(crate) fn parse(name: &str) -> Option<Self> {
+    pub fn parse(name: &str) -> Option<Self> {
         let mut exponents = [0.0; BASE.len()];
         let (over, under) = match name.split_once('/') {
             Some((over, under)) => (over, Some(under)),
@@ -38,32 +36,27 @@ impl Unit {
         })
     }
 
-    /// `<Unit>` with the display units in use. A unit with a fractional exponent has no `<BaseUnit>`: FMI has no way to say it.
-    pub(crate) fn element(&self, display_units: &[&str]) -> Element {
-        let mut unit = Element::new("Unit").attribute("name", &self.name);
-        if self
-            .exponents
+    /// Its spelling.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Symbols and exponents of the base units, zero exponents included.
+    pub fn exponents(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        BASE.into_iter().zip(self.exponents)
+    }
+
+    /// Whether every exponent is a whole number, as FMI needs them to be.
+    pub fn is_whole(&self) -> bool {
+        self.exponents
             .iter()
             .all(|exponent| exponent.fract().abs() < f64::EPSILON)
-        {
-            let mut base_unit = Element::new("BaseUnit");
-            for (symbol, exponent) in BASE.iter().zip(self.exponents) {
-                if exponent.abs() > 0.0 {
-                    base_unit = base_unit.attribute(*symbol, number(exponent));
-                }
-            }
-            unit = unit.child(base_unit);
-        }
-        for (base, name, factor) in DISPLAY {
-            if base == self.name && display_units.contains(&name) {
-                unit = unit.child(
-                    Element::new("DisplayUnit")
-                        .attribute("name", name)
-                        .attribute("factor", number(factor)),
-                );
-            }
-        }
-        unit
+    }
+
+    /// Units that values in this unit may be displayed in, with the factor by which a value is multiplied for it.
+    pub fn display_units(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        let own = DISPLAY.into_iter().filter(|(unit, ..)| *unit == self.name);
+        own.map(|(_, name, factor)| (name, factor))
     }
 }
 
@@ -136,14 +129,17 @@ mod tests {
     }
 
     #[test]
-    fn a_fractional_exponent_has_no_base_unit() {
-        let element = |name| Unit::parse(name).unwrap().element(&["deg"]);
-        let unit = |name: &str| Element::new("Unit").attribute("name", name);
-        assert_eq!(element("m/s^2.5"), unit("m/s^2.5"));
-        let base = Element::new("BaseUnit").attribute("rad", "1");
-        let deg = Element::new("DisplayUnit")
-            .attribute("name", "deg")
-            .attribute("factor", "57.29577951308232");
-        assert_eq!(element("rad"), unit("rad").child(base).child(deg));
+    fn only_whole_exponents_are_whole() {
+        for (name, whole) in [("1", true), ("m2/s5", true), ("m/s^2.5", false)] {
+            assert_eq!(Unit::parse(name).unwrap().is_whole(), whole, "{name}");
+        }
+    }
+
+    #[test]
+    #[allow(clippy::float_cmp, reason = "the one rounding of 180 / pi")]
+    fn angles_can_be_shown_in_degrees() {
+        let displayed = |name| Unit::parse(name).unwrap().display_units().collect::<Vec<_>>();
+        assert_eq!(displayed("rad"), [("deg", 57.295_779_513_082_32)]);
+        assert_eq!(displayed("m"), []);
     }
 }

@@ -2,15 +2,17 @@
 
 use std::sync::Arc;
 
-use super::Table;
-use super::definition::{DefinitionError, check_name, check_variable};
-use super::kind::{Boolean, ByElement, Enumeration, Integer, Kind, Real, Text};
-use super::variable::{Access, Causality, EnumerationItem, EnumerationType, Read, Variability, Variable, Write};
+use crate::definition::{DefinitionError, check_name, check_row};
+use crate::kind::{Boolean, ByElement, Enumeration, Integer, Kind, Real, Text};
+use crate::table::Table;
+use crate::variable::{
+    Access, Causality, Each, EnumerationItem, EnumerationType, Read, Shape, Variability, Variable, Write,
+};
 
-/// Collects the rows of a [`Table`]. The order of the calls is the order of the XML and of the value references.
+/// Collects the rows of a [`Table`]. The order of the calls is the order of the description and of the value references.
 ///
 /// ```
-/// # use fmi2_export::TableBuilder;
+/// # use fmi_model::{Shape, TableBuilder};
 /// # struct Nav { gate: f64, r_tc: [f64; 3] }
 /// let mut t = TableBuilder::<Nav>::new();
 /// t.real("accelerometer.gate")
@@ -26,14 +28,17 @@ use super::variable::{Access, Causality, EnumerationItem, EnumerationType, Read,
 ///     .about("target relative to chaser, inertial axes")
 ///     .vector(3, |m, i| m.r_tc[i]);
 /// let table = t.build();
+/// assert_eq!(table.rows()[1].shape, Shape::Vector(3));
 /// assert_eq!(table.find("est.r_tc_n[1]"), Some(1));
 /// ```
 ///
-/// A mistake in a row (a name used twice, a parameter without a start value, an unknown unit) is kept with the table:
-/// rendering, [`golden_check`](crate::golden_check) and `fmi2Instantiate` refuse it with that reason.
+/// A mistake in a row (a name used twice, a parameter without a start value, an unknown unit) is kept with the table, see
+/// [`Table::defect`]: whoever describes the model or makes an instance of it refuses with that reason.
 #[derive(Debug)]
 pub struct TableBuilder<M> {
-    variables: Vec<Variable<M>>,
+    rows: Vec<Variable<M>>,
+    /// Entries of all rows so far.
+    entries: u32,
     types: Vec<Arc<EnumerationType>>,
     defect: Option<DefinitionError>,
 }
@@ -48,7 +53,8 @@ impl<M> TableBuilder<M> {
     /// An empty table.
     pub fn new() -> Self {
         Self {
-            variables: Vec::new(),
+            rows: Vec::new(),
+            entries: 0,
             types: Vec::new(),
             defect: None,
         }
@@ -123,7 +129,7 @@ impl<M> TableBuilder<M> {
 
     /// The finished table.
     pub fn build(self) -> Table<M> {
-        Table::new(self.variables, self.types, self.defect)
+        Table::new(self.rows, self.types, self.defect)
     }
 
     fn type_defect(&self, declared: &EnumerationType) -> Option<DefinitionError> {
@@ -137,11 +143,15 @@ impl<M> TableBuilder<M> {
         })
     }
 
-    fn push(&mut self, variable: Variable<M>) {
-        if let Some(defect) = check_variable(&variable) {
+    fn push(&mut self, row: Variable<M>) {
+        if let Some(defect) = check_name(&row.name).or_else(|| check_row(&row)) {
             self.defect.get_or_insert(defect);
         }
-        self.variables.push(variable);
+        // More entries than this do not fit into memory.
+        self.entries = self
+            .entries
+            .saturating_add(u32::try_from(row.shape.count()).unwrap_or(u32::MAX));
+        self.rows.push(row);
     }
 }
 
@@ -167,7 +177,7 @@ impl<'t, M, K: Kind> Row<'t, M, K> {
             kind,
             causality: Causality::Local,
             discrete: false,
-            about: Box::new(|_| String::new()),
+            about: ByElement::Same(String::new()),
             start: None,
             initial_inputs: Vec::new(),
         }
@@ -204,31 +214,31 @@ impl<'t, M, K: Kind> Row<'t, M, K> {
     }
 
     /// One sentence about the variable.
-    pub fn about(self, about: impl Into<String>) -> Self {
-        let about = about.into();
-        self.about_by(move |_| about.clone())
+    pub fn about(mut self, about: impl Into<String>) -> Self {
+        self.about = ByElement::Same(about.into());
+        self
     }
 
     /// One sentence about each element, by its row-major index from 0.
     pub fn about_by(mut self, about: impl Fn(usize) -> String + 'static) -> Self {
-        self.about = Box::new(about);
+        self.about = ByElement::By(Box::new(about));
         self
     }
 
     /// Start value (of every element).
-    pub fn start(self, start: impl Into<K::Value>) -> Self {
-        let start = start.into();
-        self.start_by(move |_| start.clone())
+    pub fn start(mut self, start: impl Into<K::Value>) -> Self {
+        self.start = Some(ByElement::Same(start.into()));
+        self
     }
 
     /// Start value of each element, by its row-major index from 0.
     pub fn start_by(mut self, start: impl Fn(usize) -> K::Value + 'static) -> Self {
-        self.start = Some(Box::new(start));
+        self.start = Some(ByElement::By(Box::new(start)));
         self
     }
 
-    /// Says that the value depends on this input (named without indices) already at initialization. The XML tells masters,
-    /// which then set the input before they read the value. In steps no output depends on an input set at the same time.
+    /// Says that the value depends on this input (named without indices) already at initialization. The description tells
+    /// masters, which then set the input before they read the value. In steps no output depends on an input set at the same time.
     pub fn initially_from(mut self, input: &'static str) -> Self {
         self.initial_inputs.push(input);
         self
@@ -236,7 +246,7 @@ impl<'t, M, K: Kind> Row<'t, M, K> {
 
     /// A scalar that is only read.
     pub fn get(self, get: impl Fn(&M) -> K::Value + Send + Sync + 'static) {
-        self.put(Shape::Scalar, Arc::new(move |m, _| get(m)), None);
+        self.put(Shape::Scalar, Box::new(move |m, _| get(m)), None);
     }
 
     /// A scalar that is read and set.
@@ -247,14 +257,14 @@ impl<'t, M, K: Kind> Row<'t, M, K> {
     ) {
         self.put(
             Shape::Scalar,
-            Arc::new(move |m, _| get(m)),
-            Some(Arc::new(move |m, _, value| set(m, value))),
+            Box::new(move |m, _| get(m)),
+            Some(Box::new(move |m, _, value| set(m, value))),
         );
     }
 
     /// A vector `name[1]`..`name[n]` that is only read; `get` takes the index from 0.
     pub fn vector(self, n: usize, get: impl Fn(&M, usize) -> K::Value + Send + Sync + 'static) {
-        self.put(Shape::Vector(n), Arc::new(get), None);
+        self.put(Shape::Vector(n), Box::new(get), None);
     }
 
     /// A vector `name[1]`..`name[n]` that is read and set; the closures take the index from 0.
@@ -264,14 +274,14 @@ impl<'t, M, K: Kind> Row<'t, M, K> {
         get: impl Fn(&M, usize) -> K::Value + Send + Sync + 'static,
         set: impl Fn(&mut M, usize, K::Value) + Send + Sync + 'static,
     ) {
-        self.put(Shape::Vector(n), Arc::new(get), Some(Arc::new(set)));
+        self.put(Shape::Vector(n), Box::new(get), Some(Box::new(set)));
     }
 
     /// A matrix `name[1,1]`..`name[rows,cols]`, row by row, that is only read; `get` takes row and column from 0.
     pub fn matrix(self, rows: usize, cols: usize, get: impl Fn(&M, usize, usize) -> K::Value + Send + Sync + 'static) {
         self.put(
             Shape::Matrix(rows, cols),
-            Arc::new(move |m, k| get(m, k / cols, k % cols)),
+            Box::new(move |m, k| get(m, k / cols, k % cols)),
             None,
         );
     }
@@ -286,8 +296,8 @@ impl<'t, M, K: Kind> Row<'t, M, K> {
     ) {
         self.put(
             Shape::Matrix(rows, cols),
-            Arc::new(move |m, k| get(m, k / cols, k % cols)),
-            Some(Arc::new(move |m, k, value| set(m, k / cols, k % cols, value))),
+            Box::new(move |m, k| get(m, k / cols, k % cols)),
+            Some(Box::new(move |m, k, value| set(m, k / cols, k % cols, value))),
         );
     }
 
@@ -297,43 +307,35 @@ impl<'t, M, K: Kind> Row<'t, M, K> {
             _ if K::CONTINUOUS && !self.discrete => Variability::Continuous,
             _ => Variability::Discrete,
         };
-        if let Some(defect) = check_name(&self.name) {
-            self.builder.defect.get_or_insert(defect);
-        }
-        for element in 0..shape.len() {
-            let start = match &self.start {
-                Some(start) => Some(start(element)),
-                None if self.causality == Causality::Input => Some(self.kind.neutral()),
-                None => None,
-            };
-            let access = Access {
-                element,
-                read: Arc::clone(&read),
-                write: write.clone(),
-                start,
-            };
-            self.builder.push(Variable {
-                name: shape.element_name(&self.name, element),
-                about: (self.about)(element),
-                causality: self.causality,
-                variability,
-                initial_inputs: self.initial_inputs.clone(),
-                typed: self.kind.typed(element, access),
-            });
-        }
+        let start = match self.start {
+            Some(start) => Some(start.over(shape)),
+            None if self.causality == Causality::Input => Some(Each::Same(self.kind.neutral())),
+            None => None,
+        };
+        let access = Access { read, write, start };
+        self.builder.push(Variable {
+            name: self.name,
+            shape,
+            first: self.builder.entries,
+            about: self.about.over(shape),
+            causality: self.causality,
+            variability,
+            initial_inputs: self.initial_inputs,
+            typed: self.kind.typed(shape, access),
+        });
     }
 }
 
 impl<M> Row<'_, M, Real> {
     /// Unit, spelt like `m/s2`, `m2/s5`, `rad`, `m/s^2.5`, `1`, from the SI base units and `rad`.
-    pub fn unit(self, unit: impl Into<String>) -> Self {
-        let unit = unit.into();
-        self.unit_by(move |_| unit.clone())
+    pub fn unit(mut self, unit: impl Into<String>) -> Self {
+        self.kind.unit = Some(ByElement::Same(unit.into()));
+        self
     }
 
     /// Unit of each element, by its row-major index from 0.
     pub fn unit_by<U: Into<String>>(mut self, unit: impl Fn(usize) -> U + 'static) -> Self {
-        self.kind.unit = Some(Box::new(move |element| unit(element).into()));
+        self.kind.unit = Some(ByElement::By(Box::new(move |element| unit(element).into())));
         self
     }
 
@@ -360,7 +362,7 @@ macro_rules! bounded {
                 self
             }
 
-            /// Only values above 0 may be set. The XML, which has no way to say it, declares min = 0.
+            /// Only values above 0 may be set. A description, which has no way to say it, declares min = 0.
             pub fn positive(mut self) -> Self {
                 self.kind.bounds.positive = true;
                 self
@@ -377,31 +379,3 @@ macro_rules! bounded {
 }
 bounded!(Real, f64, -1.0);
 bounded!(Integer, i32, -1);
-
-/// How many elements a row expands to, and their names.
-#[derive(Clone, Copy)]
-enum Shape {
-    Scalar,
-    Vector(usize),
-    Matrix(usize, usize),
-}
-
-impl Shape {
-    fn len(self) -> usize {
-        match self {
-            Self::Scalar => 1,
-            Self::Vector(n) => n,
-            Self::Matrix(rows, cols) => rows * cols,
-        }
-    }
-
-    fn element_name(self, name: &str, element: usize) -> String {
-        match self {
-            Self::Scalar => name.to_owned(),
-            Self::Vector(_) => format!("{name}[{}]", element + 1),
-            Self::Matrix(_, cols) => {
-                format!("{name}[{},{}]", element / cols + 1, element % cols + 1)
-            }
-        }
-    }
-}

@@ -1,17 +1,17 @@
-//! The kinds of rows, one for each FMI type, and the attributes that only they have.
+//! The kinds of rows, one for each type, and the attributes that only they have.
 
 use std::sync::Arc;
 
-use super::bounds::Bounds;
-use super::variable::{Access, EnumerationType, Scalar, Typed};
+use crate::bounds::Bounds;
+use crate::variable::{Access, Each, EnumerationType, Scalar, Shape, Typed};
 
-/// What a row needs beyond a name, by FMI type.
+/// What a row needs beyond a name, by type.
 pub trait Kind {
     /// The type of its values in Rust.
     type Value: Scalar;
 
-    /// The typed part of element `element`, in row-major order from 0.
-    fn typed<M>(&self, element: usize, access: Access<M, Self::Value>) -> Typed<M>;
+    /// The typed part of a row.
+    fn typed<M>(self, shape: Shape, access: Access<M, Self::Value>) -> Typed<M>;
 
     /// Whether values may change between communication points unless the row says otherwise.
     const CONTINUOUS: bool = false;
@@ -20,25 +20,40 @@ pub trait Kind {
     fn neutral(&self) -> Self::Value;
 }
 
-/// An attribute of each element, by its row-major index from 0.
-pub(super) type ByElement<T> = Box<dyn Fn(usize) -> T>;
+/// An attribute of a row whose shape is not known yet.
+pub(crate) enum ByElement<T> {
+    /// All elements have this one.
+    Same(T),
+    /// The attribute of each element, by its row-major index from 0.
+    By(Box<dyn Fn(usize) -> T>),
+}
+
+impl<T> ByElement<T> {
+    /// The attributes of a row of this shape.
+    pub(crate) fn over(self, shape: Shape) -> Each<T> {
+        match self {
+            Self::Same(value) => Each::Same(value),
+            Self::By(attribute) => Each::Own((0..shape.count()).map(attribute).collect()),
+        }
+    }
+}
 
 /// Attributes of a Real row.
 #[derive(Default)]
 pub struct Real {
-    pub(super) unit: Option<ByElement<String>>,
-    pub(super) display_unit: Option<&'static str>,
-    pub(super) bounds: Bounds<f64>,
+    pub(crate) unit: Option<ByElement<String>>,
+    pub(crate) display_unit: Option<&'static str>,
+    pub(crate) bounds: Bounds<f64>,
 }
 
 impl Kind for Real {
     type Value = f64;
     const CONTINUOUS: bool = true;
 
-    fn typed<M>(&self, element: usize, access: Access<M, f64>) -> Typed<M> {
+    fn typed<M>(self, shape: Shape, access: Access<M, f64>) -> Typed<M> {
         Typed::Real {
             access,
-            unit: self.unit.as_ref().map(|unit| unit(element)),
+            unit: self.unit.map(|unit| unit.over(shape)),
             display_unit: self.display_unit,
             bounds: self.bounds,
         }
@@ -52,13 +67,13 @@ impl Kind for Real {
 /// Attributes of an Integer row.
 #[derive(Default)]
 pub struct Integer {
-    pub(super) bounds: Bounds<i32>,
+    pub(crate) bounds: Bounds<i32>,
 }
 
 impl Kind for Integer {
     type Value = i32;
 
-    fn typed<M>(&self, _element: usize, access: Access<M, i32>) -> Typed<M> {
+    fn typed<M>(self, _shape: Shape, access: Access<M, i32>) -> Typed<M> {
         Typed::Integer {
             access,
             bounds: self.bounds,
@@ -72,16 +87,16 @@ impl Kind for Integer {
 
 /// Attributes of an enumeration row.
 pub struct Enumeration {
-    pub(super) declared: Arc<EnumerationType>,
+    pub(crate) declared: Arc<EnumerationType>,
 }
 
 impl Kind for Enumeration {
     type Value = i32;
 
-    fn typed<M>(&self, _element: usize, access: Access<M, i32>) -> Typed<M> {
+    fn typed<M>(self, _shape: Shape, access: Access<M, i32>) -> Typed<M> {
         Typed::Enumeration {
             access,
-            declared: Arc::clone(&self.declared),
+            declared: self.declared,
         }
     }
 
@@ -96,7 +111,7 @@ pub struct Boolean;
 impl Kind for Boolean {
     type Value = bool;
 
-    fn typed<M>(&self, _element: usize, access: Access<M, bool>) -> Typed<M> {
+    fn typed<M>(self, _shape: Shape, access: Access<M, bool>) -> Typed<M> {
         Typed::Boolean { access }
     }
 
@@ -111,7 +126,7 @@ pub struct Text;
 impl Kind for Text {
     type Value = String;
 
-    fn typed<M>(&self, _element: usize, access: Access<M, String>) -> Typed<M> {
+    fn typed<M>(self, _shape: Shape, access: Access<M, String>) -> Typed<M> {
         Typed::String { access }
     }
 

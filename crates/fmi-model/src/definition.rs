@@ -1,8 +1,8 @@
-//! Mistakes in the definition of an FMU, found before any host sees it.
+//! Mistakes in the definition of a model, found before any host sees it.
 
-use super::bounds::OWN_DEFAULT;
-use super::variable::{Typed, Variable};
+use crate::bounds::OWN_DEFAULT;
 use crate::unit::{self, Unit};
+use crate::variable::{Entry, Typed, Variable};
 
 /// What is wrong with a table or the facts around it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -128,6 +128,14 @@ pub enum DefinitionError {
     /// The model has no name.
     #[error("the model has no name: fill in ModelInfo::model_name")]
     NoModelName,
+    /// What a tool is to be told cannot be put into the description.
+    #[error("the vendor annotation for '{tool}' is not one XML element: {reason}")]
+    BadAnnotation {
+        /// The tool.
+        tool: &'static str,
+        /// What the XML writer or reader said.
+        reason: String,
+    },
     /// The default experiment cannot be run.
     #[error("the default experiment of {stop} s in steps of {step} s is not positive and finite")]
     BadExperiment {
@@ -149,82 +157,80 @@ pub(crate) fn check_name(name: &str) -> Option<DefinitionError> {
     (!name.split('.').all(is_identifier)).then(|| DefinitionError::BadName { name: name.to_owned() })
 }
 
-/// Everything that can be said of one variable without a model.
-pub(crate) fn check_variable<M>(variable: &Variable<M>) -> Option<DefinitionError> {
-    let name = || variable.name.clone();
-    let row = variable.typed.row();
-    match (variable.causality.settable(), row.writable()) {
+/// Everything that can be said of one row without a model.
+pub(crate) fn check_row<M>(row: &Variable<M>) -> Option<DefinitionError> {
+    row.entries().find_map(check_entry)
+}
+
+fn check_entry<M>(entry: Entry<'_, M>) -> Option<DefinitionError> {
+    let Entry { row, element } = entry;
+    let name = || entry.name().into_owned();
+    let access = row.typed.any();
+    match (row.causality.settable(), access.writable()) {
         (true, false) => return Some(DefinitionError::MissingSetter { name: name() }),
         (false, true) => return Some(DefinitionError::NeedlessSetter { name: name() }),
         _ => {}
     }
-    match (variable.causality.settable(), row.has_start()) {
+    match (row.causality.settable(), access.has_start()) {
         (true, false) => return Some(DefinitionError::MissingStart { name: name() }),
         (false, true) => return Some(DefinitionError::NeedlessStart { name: name() }),
         _ => {}
     }
-    match &variable.typed {
+    match &row.typed {
         Typed::Real {
             access,
-            unit,
             display_unit,
             bounds,
-        } => check_unit(variable, unit.as_deref(), *display_unit).or_else(|| {
-            check_own_default(variable, bounds.own_default, bounds.within(f64::from(OWN_DEFAULT))).or_else(|| {
-                let start = access.start.filter(|v| !v.is_finite() || !bounds.admit(*v))?;
-                Some(start_out_of_bounds(variable, start, bounds.to_string()))
+            ..
+        } => check_unit(entry, *display_unit).or_else(|| {
+            check_own_default(entry, bounds.own_default, bounds.within(f64::from(OWN_DEFAULT))).or_else(|| {
+                let start = access.start(element).filter(|v| !v.is_finite() || !bounds.admit(**v))?;
+                Some(start_out_of_bounds(entry, start, bounds.to_string()))
             })
         }),
         Typed::Integer { access, bounds } => {
-            check_own_default(variable, bounds.own_default, bounds.within(i32::from(OWN_DEFAULT))).or_else(|| {
-                let start = access.start.filter(|v| !bounds.admit(*v))?;
-                Some(start_out_of_bounds(variable, start, bounds.to_string()))
+            check_own_default(entry, bounds.own_default, bounds.within(i32::from(OWN_DEFAULT))).or_else(|| {
+                let start = access.start(element).filter(|v| !bounds.admit(**v))?;
+                Some(start_out_of_bounds(entry, start, bounds.to_string()))
             })
         }
         Typed::Enumeration { access, declared } => {
-            let start = access.start.filter(|v| declared.item(*v).is_none())?;
+            let start = access.start(element).filter(|v| declared.item(**v).is_none())?;
             let bounds = format!("an item of '{}'", declared.name);
-            Some(start_out_of_bounds(variable, start, bounds))
+            Some(start_out_of_bounds(entry, start, bounds))
         }
         Typed::Boolean { .. } | Typed::String { .. } => None,
     }
 }
 
-fn check_unit<M>(
-    variable: &Variable<M>,
-    unit: Option<&str>,
-    display_unit: Option<&'static str>,
-) -> Option<DefinitionError> {
-    if let Some(unit) = unit.filter(|unit| Unit::parse(unit).is_none()) {
+fn check_unit<M>(entry: Entry<'_, M>, display_unit: Option<&'static str>) -> Option<DefinitionError> {
+    let name = || entry.name().into_owned();
+    if let Some(unit) = entry.unit().filter(|unit| Unit::parse(unit).is_none()) {
         return Some(DefinitionError::UnknownUnit {
-            name: variable.name.clone(),
+            name: name(),
             unit: unit.to_owned(),
         });
     }
-    let unit = unit.unwrap_or_default();
+    let unit = entry.unit().unwrap_or_default();
     display_unit
         .filter(|display_unit| !unit::displays(unit, display_unit))
         .map(|display_unit| DefinitionError::UnknownDisplayUnit {
-            name: variable.name.clone(),
+            name: name(),
             unit: unit.to_owned(),
             display_unit,
         })
 }
 
-fn check_own_default<M>(
-    variable: &Variable<M>,
-    own_default: bool,
-    minus_one_is_within: bool,
-) -> Option<DefinitionError> {
+fn check_own_default<M>(entry: Entry<'_, M>, own_default: bool, minus_one_is_within: bool) -> Option<DefinitionError> {
     (own_default && minus_one_is_within).then(|| DefinitionError::AmbiguousOwnDefault {
-        name: variable.name.clone(),
+        name: entry.name().into_owned(),
     })
 }
 
-fn start_out_of_bounds<M>(variable: &Variable<M>, start: impl std::fmt::Debug, bounds: String) -> DefinitionError {
+fn start_out_of_bounds<M>(entry: Entry<'_, M>, start: impl std::fmt::Debug, bounds: String) -> DefinitionError {
     let finite = if bounds.is_empty() { "finite" } else { "" };
     DefinitionError::StartOutOfBounds {
-        name: variable.name.clone(),
+        name: entry.name().into_owned(),
         start: format!("{start:?}"),
         bounds: format!("{finite}{bounds}"),
     }
@@ -233,7 +239,7 @@ fn start_out_of_bounds<M>(variable: &Variable<M>, start: impl std::fmt::Debug, b
 #[cfg(test)]
 mod tests {
     use super::DefinitionError as E;
-    use crate::table::{Integer, Real, Row, Table, TableBuilder};
+    use crate::{Integer, Real, Row, Table, TableBuilder};
 
     /// A model with a field for each test to use.
     #[derive(Default)]

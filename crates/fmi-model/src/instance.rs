@@ -1,0 +1,219 @@
+//! One instance of a model: what each call does.
+//!
+//! A call that is refused (unknown or unfit variable, value out of bounds, times that do not fit) changes nothing and leaves the
+//! instance usable: arrays are checked whole before the first value is applied.
+
+use crate::check::{Checked, check_settable, finite};
+use crate::error::InstanceError;
+use crate::log::Log;
+use crate::model::{Experiment, Model};
+use crate::phase::Phase;
+use crate::snapshot::Snapshot;
+use crate::variable::{Access, Entry, Scalar};
+
+/// One instance of a model.
+///
+/// The methods follow the calls of the standard. Which of them a [`Phase`] allows is for the exporter to check, since the
+/// versions of the standard differ in it; here only setting variables depends on the phase. Variables go by the numbers of
+/// their entries, see [`Table::entry`](crate::Table::entry).
+#[derive(Debug)]
+pub struct Instance<M> {
+    state: Snapshot<M>,
+}
+
+impl<M: Model> Default for Instance<M> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<M: Model> Instance<M> {
+    /// A new instance with the start column applied.
+    pub fn new() -> Self {
+        Self {
+            state: Snapshot::start(),
+        }
+    }
+
+    /// Where it is in its life.
+    pub fn phase(&self) -> Phase {
+        self.state.phase
+    }
+
+    /// End of the last successful step, s; before the first one the start time.
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// Gives the instance up after a panic.
+    pub fn poison(&mut self) {
+        self.state.phase = Phase::Fatal;
+    }
+
+    // Life cycle.
+
+    /// Takes the times of the simulation.
+    ///
+    /// # Errors
+    /// [`InstanceError::NotFinite`], [`InstanceError::StopBeforeStart`] or [`InstanceError::BadTolerance`].
+    pub fn setup_experiment(&mut self, experiment: Experiment) -> Result<(), InstanceError> {
+        let start = experiment.start_time;
+        finite("start time", start)?;
+        if let Some(stop) = experiment.stop_time {
+            finite("stop time", stop)?;
+            if stop < start {
+                return Err(InstanceError::StopBeforeStart { start, stop });
+            }
+        }
+        if let Some(tolerance) = experiment.tolerance {
+            finite("tolerance", tolerance)?;
+            if tolerance <= 0.0 {
+                return Err(InstanceError::BadTolerance { tolerance });
+            }
+        }
+        self.state.experiment = experiment;
+        self.state.time = start;
+        Ok(())
+    }
+
+    /// Initialization begins: the model initialises.
+    ///
+    /// # Errors
+    /// [`InstanceError::Model`].
+    pub fn enter_initialization(&mut self, log: &mut Log<'_>) -> Result<(), InstanceError> {
+        self.state.phase = Phase::Initialization;
+        self.state.stale = true;
+        self.refresh(log)
+    }
+
+    /// Initialization ends; if a variable was set since the model initialised, it does so once more.
+    ///
+    /// # Errors
+    /// [`InstanceError::Model`].
+    pub fn exit_initialization(&mut self, log: &mut Log<'_>) -> Result<(), InstanceError> {
+        self.refresh(log)?;
+        self.state.phase = Phase::StepComplete;
+        Ok(())
+    }
+
+    /// The simulation is over.
+    pub fn terminate(&mut self, log: &mut Log<'_>) {
+        self.state.model.terminate(log);
+        self.state.phase = Phase::Terminated;
+    }
+
+    /// As after [`Instance::new`].
+    pub fn reset(&mut self) {
+        self.state = Snapshot::start();
+    }
+
+    /// Lets the model initialise if a variable was set since it last did.
+    fn refresh(&mut self, log: &mut Log<'_>) -> Result<(), InstanceError> {
+        let state = &mut self.state;
+        if state.phase != Phase::Initialization || !state.stale {
+            return Ok(());
+        }
+        if let Err(error) = state.model.initialise(&state.experiment, log) {
+            state.phase = Phase::Failed;
+            return Err(InstanceError::Model(error));
+        }
+        state.stale = false;
+        Ok(())
+    }
+
+    // Variables.
+
+    /// Hands the value of each entry to `put`, with its place in `references`.
+    ///
+    /// # Errors
+    /// [`InstanceError::UnknownReference`], [`InstanceError::WrongType`] or, in initialization, [`InstanceError::Model`].
+    pub fn get<T: Scalar>(
+        &mut self,
+        references: &[u32],
+        log: &mut Log<'_>,
+        mut put: impl FnMut(usize, T),
+    ) -> Result<(), InstanceError> {
+        for reference in references {
+            entry::<M, T>(*reference)?;
+        }
+        self.refresh(log)?;
+        for (place, reference) in references.iter().enumerate() {
+            let (entry, access) = entry::<M, T>(*reference)?;
+            put(place, access.read(&self.state.model, entry.element));
+        }
+        Ok(())
+    }
+
+    /// Sets entries; `value` gives the value at a place in `references`.
+    ///
+    /// # Errors
+    /// [`InstanceError::UnknownReference`], [`InstanceError::WrongType`], [`InstanceError::NotSettable`], or why the entry
+    /// does not take the value.
+    pub fn set<T: Checked>(&mut self, references: &[u32], value: impl Fn(usize) -> T) -> Result<(), InstanceError> {
+        for (place, reference) in references.iter().enumerate() {
+            let (entry, _) = entry::<M, T>(*reference)?;
+            check_settable(entry, self.state.phase)?;
+            T::check(&value(place), entry)?;
+        }
+        for (place, reference) in references.iter().enumerate() {
+            let (entry, access) = entry::<M, T>(*reference)?;
+            access.write(&mut self.state.model, entry.element, value(place));
+        }
+        self.state.stale |= self.state.phase == Phase::Initialization && !references.is_empty();
+        Ok(())
+    }
+
+    // Steps.
+
+    /// Advances from `t` to `t + h`, s.
+    ///
+    /// # Errors
+    /// [`InstanceError::NotFinite`], [`InstanceError::BadStep`], [`InstanceError::TimeMismatch`] or
+    /// [`InstanceError::Model`].
+    pub fn do_step(&mut self, t: f64, h: f64, log: &mut Log<'_>) -> Result<(), InstanceError> {
+        finite("communication point", t)?;
+        finite("communication step size", h)?;
+        if h <= 0.0 {
+            return Err(InstanceError::BadStep { h });
+        }
+        finite("end of the step", t + h)?;
+        let expected = self.state.time;
+        if (t - expected).abs() > 1e-9 * t.abs().max(1.0) + 1e-6 * h {
+            return Err(InstanceError::TimeMismatch { t, expected });
+        }
+        let state = &mut self.state;
+        if let Err(error) = state.model.do_step(t, h, log) {
+            state.phase = Phase::Failed;
+            return Err(InstanceError::Model(error));
+        }
+        state.time = t + h;
+        Ok(())
+    }
+
+    // Saved states.
+
+    /// All that later calls depend on.
+    pub fn state(&self) -> &Snapshot<M> {
+        &self.state
+    }
+
+    /// Back, or on, to a state of this or another instance of the model.
+    pub fn set_state(&mut self, state: Snapshot<M>) {
+        self.state = state;
+    }
+}
+
+/// The entry of this number and the access to its row, if the type is `T`.
+fn entry<M: Model, T: Scalar>(reference: u32) -> Result<(Entry<'static, M>, &'static Access<M, T>), InstanceError> {
+    let table = M::table();
+    let entry = table.entry(reference).ok_or_else(|| InstanceError::UnknownReference {
+        reference,
+        count: table.entry_count(),
+    })?;
+    let access = T::access(&entry.row.typed).ok_or_else(|| InstanceError::WrongType {
+        name: entry.name().into_owned(),
+        reference,
+        declared: entry.row.typed.name(),
+    })?;
+    Ok((entry, access))
+}
