@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use fmi2_import::{Causality, Fmu, LIBRARY_SUFFIX, ModelDescription, PLATFORM};
+use study::{NAV, TRUTH};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::HarnessError;
-use crate::models::{NAV, TRUTH};
 use crate::output::write_whole;
 
 /// Our FMUs: crate and model name, and the identifier that library and C functions go by.

@@ -5,7 +5,7 @@ use std::io::Write;
 use fmi2_import::{Causality, Fmu};
 
 use super::list::variables;
-use super::{Verdict, say};
+use super::shared::{Verdict, say};
 use crate::HarnessError;
 use crate::cli::InspectArgs;
 

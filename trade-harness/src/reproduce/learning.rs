@@ -5,14 +5,14 @@ use std::f64::consts::TAU;
 use astro::ClohessyWiltshire;
 use astro::harmonics::EGM96;
 use nalgebra::{Vector3, Vector6};
+use study::{FilterResult, NAV, Quantity, TruthSample};
 
-use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request};
+use super::chapter::{Chapter, NETWORK_PAPER};
+use super::line::Line;
+use super::notebook::{Laboratory, Notebook};
+use super::request::{FORMATION, Request};
 use crate::HarnessError;
-use crate::models::NAV;
-use crate::scenarios::{FORMATION, Scenario};
-use crate::score::Quantity;
-use crate::signals::TruthSample;
-use crate::study::FilterResult;
+use crate::bound::Bound;
 
 pub(super) const CHAPTER: Chapter = Chapter {
     title: "Fig. 4: learning, and the drift of Clohessy-Wiltshire",
@@ -27,12 +27,6 @@ const FILTER: &str = "rbfnn_aekf@fig4";
 const SEMI_MAJOR_AXIS: f64 = 8143.1e3;
 /// Period of both orbits, rounded up, s.
 const ORBIT: f64 = 7313.0;
-
-/// The first orbit of the formation.
-static FIRST_ORBIT: Scenario = Scenario {
-    duration: ORBIT,
-    ..FORMATION
-};
 
 /// What the figure calls its initial phase, s.
 const INITIAL: f64 = 60.0;
@@ -63,20 +57,24 @@ fn requests() -> Vec<Request> {
 
 fn forgetting(relaxation: f64) -> Request {
     let case = format!("learning_{relaxation}");
-    let request = Request::new(&FIRST_ORBIT, &case, &[FILTER]).with_j2_alone();
-    Request {
-        one_run_in: 5,
-        ..request.set(NAV, "rbfnn_aekf.relaxation", &relaxation.to_string())
-    }
+    first_orbit(&case, FILTER)
+        .with_j2_alone()
+        .set(NAV, "rbfnn_aekf.relaxation", &relaxation.to_string())
+        .one_run_in(5)
 }
 
 fn learning() -> Request {
-    Request::new(&FIRST_ORBIT, "learning", &[FILTER]).with_j2_alone()
+    first_orbit("learning", FILTER).with_j2_alone()
 }
 
 /// Flown for the true relative motion under every force; a filter has to ride along.
 fn flight() -> Request {
-    Request::new(&FIRST_ORBIT, "flight", &["snc"])
+    first_orbit("flight", "snc")
+}
+
+/// The first orbit of the formation.
+fn first_orbit(case: &str, filter: &str) -> Request {
+    Request::new(FORMATION, case, &[filter]).lasting(ORBIT)
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {
@@ -155,9 +153,7 @@ impl Point {
 
 fn curve(filter: &FilterResult, truth: &[TruthSample]) -> Vec<Point> {
     let point = |sample: &TruthSample| {
-        let moments = filter
-            .ensemble(Quantity::Acceleration)
-            .at(sample.count.checked_sub(1)? as usize)?;
+        let moments = filter.ensemble(Quantity::Acceleration).at(sample.epoch)?;
         Some(Point {
             time: sample.time,
             d: sample.acceleration?,
