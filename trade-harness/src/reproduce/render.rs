@@ -171,10 +171,9 @@ mod tests {
                     .note("a, b"),
             ),
         ];
-        Notebook {
-            lines,
-            ..Notebook::default()
-        }
+        let mut notebook = Notebook::default();
+        notebook.lines = lines;
+        notebook
     }
 
     #[test]

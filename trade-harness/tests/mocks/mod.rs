@@ -4,49 +4,23 @@
 use std::sync::Arc;
 
 use cosim::{BaseType, Causality, Port, Scheme, Slave, SlaveError};
-use trade_harness::HarnessError;
-use trade_harness::models::{Participant, SlaveSource};
-use trade_harness::run::Spec;
-use trade_harness::scenarios::{Residual, Scenario, Signal, Signals, target_rtn};
+use study::{Axes, Frame, Participant, SlaveSource, Spec, StatusItems, StudyError, World};
 
 /// 40 samples of 1 s, scored from the eleventh.
-pub static SCENARIO: Scenario = Scenario {
-    name: "mock",
-    about: "a target that stands still",
-    reference: "none",
-    duration: 40.0,
-    scored_from: 11.0,
-    signals: Signals {
-        position: Signal {
-            truth: "truth.r_tc_n",
-            estimate: "est.r_tc_n",
-        },
-        velocity: Signal {
-            truth: "truth.v_tc_n",
-            estimate: "est.v_tc_n",
-        },
-        acceleration: Signal {
-            truth: "truth.a_t_n",
-            estimate: "est.a_t_n",
-        },
-        bias: None,
-        chaser: Some(["truth.r_c_n", "truth.v_c_n"]),
-        measurement_valid: "lidar.valid",
-        residual: [
-            Some(Residual {
-                names: ["innov.range", "innov.azimuth", "innov.elevation"],
-                units: ["m", "rad", "rad"],
-                variance: "innov.s",
-            }),
-            None,
-        ],
+pub fn world() -> World {
+    World {
+        name: "mock".to_owned(),
+        about: "a target that stands still".to_owned(),
+        reference: "none".to_owned(),
+        duration_s: 40.0,
+        scored_from_s: 11.0,
+        sample_period_s: 1.0,
+        frame: Frame::Inertial,
+        axes: Axes::Rtn,
         nis_rows: 3,
-        axes: ["r", "t", "n"],
-        report_axes: target_rtn,
-    },
-    filters: &["good"],
-    claims: &[],
-};
+        filters: Vec::new(),
+    }
+}
 
 /// Error of the estimate of a sample, the same on position and velocity; R, T, N are the axes x, y, z of this world.
 pub fn noise(run: i32, count: i32, axis: usize) -> f64 {
@@ -117,7 +91,7 @@ struct Source {
 }
 
 impl SlaveSource for Source {
-    fn create(&self, name: &str) -> Result<Box<dyn Slave>, HarnessError> {
+    fn create(&self, name: &str) -> Result<Box<dyn Slave>, StudyError> {
         Ok(Box::new(Mock::new(name, self.truth, self.quirk)))
     }
 }
@@ -131,6 +105,7 @@ fn participant(label: &str, truth: bool, quirk: Quirk) -> Participant {
         aliases: Vec::new(),
         starts: Vec::new(),
         varied: Vec::new(),
+        statuses: StatusItems::default(),
         record: Vec::new(),
     }
 }
@@ -138,7 +113,7 @@ fn participant(label: &str, truth: bool, quirk: Quirk) -> Participant {
 /// A study of these filters in the mock world.
 pub fn spec(truth: Quirk, filters: &[(&str, Quirk)]) -> Spec {
     Spec {
-        scenario: &SCENARIO,
+        world: world(),
         truth: participant("fmu-truth", true, truth),
         filters: filters
             .iter()
