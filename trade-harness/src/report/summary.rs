@@ -41,8 +41,18 @@ pub const COLUMNS: &[Column<Summary>] = &[
         "sigma claimed over sigma of the errors of position, median over time and axes",
         |s| s.position.ratio,
     ),
-    number("ratio_vel", "1", "the same of velocity", |s| s.velocity.ratio),
-    number("ratio_acc", "1", "the same of acceleration", |s| s.acceleration.ratio),
+    number(
+        "ratio_vel",
+        "1",
+        "sigma claimed over sigma of the errors of velocity, median over time and axes",
+        |s| s.velocity.ratio,
+    ),
+    number(
+        "ratio_acc",
+        "1",
+        "sigma claimed over sigma of the errors of acceleration, median over time and axes",
+        |s| s.acceleration.ratio,
+    ),
     number(
         "mean_err_sigma",
         "1",
@@ -114,27 +124,45 @@ pub const COLUMNS: &[Column<Summary>] = &[
         "root mean square of the norm of the accelerometer bias error",
         |s| s.bias.rmse,
     ),
-    number("ratio_bias", "1", "the same of accelerometer bias", |s| s.bias.ratio),
+    number(
+        "ratio_bias",
+        "1",
+        "sigma claimed over sigma of the errors of accelerometer bias, median over time and axes",
+        |s| s.bias.ratio,
+    ),
     number(
         "coverage_3s_pos",
         "1",
         "share of position errors within 3 sigma as claimed; 0.9973 for a Gaussian",
         |s| s.position.coverage,
     ),
-    number("coverage_3s_vel", "1", "the same of velocity", |s| s.velocity.coverage),
-    number("coverage_3s_acc", "1", "the same of acceleration", |s| {
-        s.acceleration.coverage
-    }),
-    number("coverage_3s_bias", "1", "the same of accelerometer bias", |s| {
-        s.bias.coverage
-    }),
+    number(
+        "coverage_3s_vel",
+        "1",
+        "share of velocity errors within 3 sigma as claimed; 0.9973 for a Gaussian",
+        |s| s.velocity.coverage,
+    ),
+    number(
+        "coverage_3s_acc",
+        "1",
+        "share of acceleration errors within 3 sigma as claimed; 0.9973 for a Gaussian",
+        |s| s.acceleration.coverage,
+    ),
+    number(
+        "coverage_3s_bias",
+        "1",
+        "share of accelerometer bias errors within 3 sigma as claimed; 0.9973 for a Gaussian",
+        |s| s.bias.coverage,
+    ),
     number(
         "nees_low",
         "1",
         "lower 95 % bound of the mean over runs of NEES over its dimension, at one epoch",
         |s| s.nees_bounds.map(|[low, _]| low),
     ),
-    number("nees_high", "1", "upper bound", |s| s.nees_bounds.map(|[_, high]| high)),
+    number("nees_high", "1", "upper 95 % bound of it", |s| {
+        s.nees_bounds.map(|[_, high]| high)
+    }),
     number(
         "nees_inside",
         "1",
@@ -250,19 +278,19 @@ pub const COLUMNS: &[Column<Summary>] = &[
     number(
         "acc_rmse_of_zero_r_m_s2",
         "m/s2",
-        "the same, first axis (radial, or LVLH x)",
+        "acc_rmse_of_zero_m_s2 on the first axis (radial, or LVLH x)",
         |s| s.zero_acceleration_axes[0],
     ),
     number(
         "acc_rmse_of_zero_t_m_s2",
         "m/s2",
-        "the same, second axis (transverse, or LVLH y)",
+        "acc_rmse_of_zero_m_s2 on the second axis (transverse, or LVLH y)",
         |s| s.zero_acceleration_axes[1],
     ),
     number(
         "acc_rmse_of_zero_n_m_s2",
         "m/s2",
-        "the same, third axis (normal, or LVLH z)",
+        "acc_rmse_of_zero_m_s2 on the third axis (normal, or LVLH z)",
         |s| s.zero_acceleration_axes[2],
     ),
 ];
