@@ -4,7 +4,7 @@
 mod mocks;
 
 use cosim::Scheme;
-use mocks::{Quirk, SIGMA, acceleration, noise, spec};
+use mocks::{Quirk, SIGMA, acceleration, noise, spec, two_rates};
 use study::{Distribution, FilterResult, Spec, Study, StudyError, Summary, Varied, rehearse};
 use trade_harness::report::epochs;
 use trade_harness::report::runs::{Named, render_failures, render_paired, render_runs};
@@ -304,6 +304,33 @@ fn diverged_runs_are_counted_and_stay_in_the_statistics() {
 fn dropped_samples_do_not_enter_the_nis() {
     let (_, filters) = study(spec(Quirk::Drops, &[("good", Quirk::None)]), 1);
     near(row(&filters[0]).nis.mean, 2.0);
+}
+
+/// Samples are counted, epochs are times: what has no sample is left out, and a sample of any sensor counts.
+#[test]
+fn sensors_of_two_rates_are_scored_at_their_own_times() {
+    let (s, filters) = study(
+        spec(Quirk::TwoRates, &[("good", Quirk::TwoRates), ("bare", Quirk::Bare)]),
+        2,
+    );
+    let times = two_rates(40);
+    let scored = || (1..).zip(&times).filter(|(_, t)| **t >= 11);
+    let squares: Vec<f64> = (0..RUNS)
+        .flat_map(|run| scored().map(move |(count, _)| (0..3).map(|a| noise(run, count, a).powi(2)).sum()))
+        .collect();
+    for filter in &filters {
+        assert_eq!(filter.failed(), 0, "{:?}", filter.runs[0].failure);
+        let rmse = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+        near(row(filter).position.rmse, rmse);
+    }
+    near(row(&filters[0]).nis.mean, 2.0);
+    let text = String::from_utf8(epochs::render(&s, &filters[0]).unwrap()).unwrap();
+    let shown: Vec<f64> = text
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').next().unwrap().parse().unwrap())
+        .collect();
+    assert_eq!(shown, times.iter().map(|t| f64::from(*t)).collect::<Vec<_>>());
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use astro::ClohessyWiltshire;
 use astro::harmonics::EGM96;
 use nalgebra::{Vector3, Vector6};
+use stats::median;
 use study::{FilterResult, NAV, Quantity, TruthSample};
 
 use super::chapter::{Chapter, NETWORK_PAPER};
@@ -124,7 +125,7 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
                 "1",
             )
             .printed(CONVERGED_SHARE)
-            .value(median(&curve, CONVERGED_AT, Point::share))
+            .value(median_from(&curve, CONVERGED_AT, Point::share))
             .bound(Bound::between(0.0, CONVERGED_SHARE)),
         );
     }
@@ -168,7 +169,7 @@ fn claims(curve: &[Point]) -> Vec<Line> {
     let orders = early.reduce(f64::max).map(f64::log10);
     let converged = curve.iter().find(|p| p.share() <= CONVERGED_SHARE).map(|p| p.time);
     let at = curve.iter().find(|p| p.time >= CONVERGED_AT).map(Point::share);
-    let usual = median(curve, CONVERGED_AT, Point::share);
+    let usual = median_from(curve, CONVERGED_AT, Point::share);
     let size = (!curve.is_empty())
         .then(|| (curve.iter().map(|p| p.d.norm_squared()).sum::<f64>() / curve.len() as f64).sqrt());
     let line = |item: &str, quantity: &str, unit| {
@@ -229,16 +230,14 @@ fn claims(curve: &[Point]) -> Vec<Line> {
 
 /// When the error first comes within [`SETTLED`] times its later median.
 fn settled(curve: &[Point]) -> Option<f64> {
-    let level = median(curve, CONVERGED_BY, |p| p.error.norm())?;
+    let level = median_from(curve, CONVERGED_BY, |p| p.error.norm())?;
     let first = curve.iter().find(|p| p.error.norm() <= SETTLED * level);
     first.map(|p| p.time)
 }
 
 /// Median of a number over the epochs from a time on.
-fn median(curve: &[Point], from: f64, of: impl Fn(&Point) -> f64) -> Option<f64> {
-    let mut values: Vec<f64> = curve.iter().filter(|p| p.time >= from).map(of).collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
+fn median_from(curve: &[Point], from: f64, of: impl Fn(&Point) -> f64) -> Option<f64> {
+    median(curve.iter().filter(|p| p.time >= from).map(of))
 }
 
 /// How far Clohessy-Wiltshire, started on the true state, is from it after an orbit.

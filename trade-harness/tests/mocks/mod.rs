@@ -27,6 +27,11 @@ pub fn noise(run: i32, count: i32, axis: usize) -> f64 {
     (f64::from(run * 31 + count * 17) * 12.9898 + axis as f64 * 78.233).sin()
 }
 
+/// Seconds up to `until` at which a truth of two rates has sampled.
+pub fn two_rates(until: i32) -> Vec<i32> {
+    (1..=until).filter(|t| t % 2 == 0 || t % 3 == 0).collect()
+}
+
 /// True acceleration of this world, m/s2.
 pub fn acceleration(axis: usize) -> f64 {
     1e-5 * (axis + 1) as f64
@@ -81,6 +86,8 @@ pub enum Quirk {
     },
     /// Has a parameter `gain`; its errors are least where that is `BEST_GAIN`, and `Participant::set_real` sets it.
     Tunable,
+    /// A truth whose LiDAR samples every 2 s and whose radio every 3 s, so that some seconds have no sample.
+    TwoRates,
     /// Samples of multiples of five hold no measurement; the NIS output keeps a wild value then.
     Drops,
 }
@@ -155,6 +162,9 @@ impl Mock {
         mock.port("sample_time", BaseType::Real, sensor);
         mock.port("sample_count", BaseType::Integer, sensor);
         mock.port("lidar.valid", BaseType::Boolean, sensor);
+        if quirk == Quirk::TwoRates {
+            mock.port("radio.valid", BaseType::Boolean, sensor);
+        }
         if quirk != Quirk::NoInitialEstimate {
             mock.port("nav_init.x[1]", BaseType::Real, sensor);
         }
@@ -192,6 +202,9 @@ impl Mock {
             mock.port("est.dimension", BaseType::Integer, Causality::Output);
             mock.port("status", BaseType::Integer, Causality::Output);
             mock.port("nis", BaseType::Real, Causality::Output);
+            if quirk == Quirk::TwoRates {
+                mock.port("nis.rows", BaseType::Integer, Causality::Output);
+            }
             for i in 1..=9 {
                 for j in 1..=9 {
                     mock.port(&format!("cov.p[{i},{j}]"), BaseType::Real, Causality::Local);
@@ -247,12 +260,21 @@ impl Mock {
 
     fn step_truth(&mut self, now: f64) {
         let late = if self.quirk == Quirk::OffGrid { 0.5 } else { 0.0 };
-        let count = (now - late + 1e-9).floor() as i32;
+        let seconds = (now - late + 1e-9).floor() as i32;
+        let count = if self.quirk == Quirk::TwoRates {
+            two_rates(seconds).len() as i32
+        } else {
+            seconds
+        };
         if count > self.integer("sample_count") {
             self.put_integer("sample_count", count);
-            self.put("sample_time", f64::from(count) + late);
+            self.put("sample_time", f64::from(seconds) + late);
             let valid = self.at("lidar.valid").unwrap();
             self.booleans[valid] = self.quirk != Quirk::Drops || count % 5 != 0;
+            if let Some(radio) = self.at("radio.valid") {
+                self.booleans[valid] = seconds % 2 == 0;
+                self.booleans[radio] = seconds % 3 == 0;
+            }
         }
         self.put("truth.r_tc_n[1]", 100.0);
         for axis in 0..3 {
@@ -296,12 +318,20 @@ impl Mock {
         }
         let tag = count - i32::from(self.quirk == Quirk::WrongTag);
         self.put_integer("est.count", tag);
-        self.put("est.time", f64::from(count));
+        let time = self.reals[self.at("sample_time").unwrap()];
+        self.put("est.time", time);
         self.put_integer("est.dimension", 6);
         let diverged = self.quirk == Quirk::SaysDiverged { run } && count == 5;
         self.put_integer("status", if diverged { 4 } else { 2 });
         let measured = self.booleans[self.at("lidar.valid").unwrap()];
-        self.put("nis", if measured { 6.0 } else { 1e6 });
+        // A filter that knows its radio: one row for each of it and the LiDAR's three, and a NIS of two for each.
+        if let (Some(radio), Some(rows)) = (self.at("radio.valid"), self.at("nis.rows")) {
+            self.integers[rows] = 3 * i32::from(measured) + i32::from(self.booleans[radio]);
+            let nis = 2.0 * f64::from(self.integers[rows]);
+            self.put("nis", nis);
+        } else {
+            self.put("nis", if measured { 6.0 } else { 1e6 });
+        }
         for i in 1..=6 {
             self.put(&format!("cov.p[{i},{i}]"), SIGMA * SIGMA);
         }
