@@ -72,6 +72,8 @@ fn statistics_are_those_of_the_known_errors() {
     near(row.velocity.rmse, rms_norm(0..RUNS));
     // Six states of the same variance, position and velocity errors alike.
     near(row.nees.mean, 2.0 * rms_norm(0..RUNS).powi(2) / (SIGMA * SIGMA) / 6.0);
+    // It has no other states.
+    assert_eq!(row.nees6, row.nees);
     near(row.nis.mean, 2.0);
     let mut ratios: Vec<f64> = Vec::new();
     for count in 11..=40 {

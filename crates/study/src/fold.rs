@@ -21,6 +21,8 @@ pub struct RunRow {
     pub true_acceleration_mean_square: Option<Vector3<f64>>,
     /// Mean over time of the NEES divided by its dimension.
     pub nees: Option<f64>,
+    /// The same of position and velocity alone, divided by 6.
+    pub nees6: Option<f64>,
     /// Mean over time of the NIS divided by its rows.
     pub nis: Option<f64>,
     /// The filter or the distance to the truth said so.
@@ -51,6 +53,8 @@ pub struct FilterResult {
     pub ensembles: [Ensemble; QUANTITIES],
     /// NEES divided by its dimension.
     pub nees: ScalarEnsemble,
+    /// NEES of position and velocity alone, divided by 6.
+    pub nees6: ScalarEnsemble,
     /// NIS divided by its rows.
     pub nis: ScalarEnsemble,
     /// Number of states of the NEES; 0 without a covariance.
@@ -74,6 +78,7 @@ impl FilterResult {
             // Of no epochs until there is an error to add: most filters lack some of the quantities.
             ensembles: std::array::from_fn(|_| Ensemble::new(0)),
             nees: ScalarEnsemble::new(epochs, first_scored),
+            nees6: ScalarEnsemble::new(epochs, first_scored),
             nis: ScalarEnsemble::new(epochs, first_scored),
             dimension: 0,
             covariances_broken: 0,
@@ -125,6 +130,9 @@ impl FilterResult {
             self.nees.add(epoch, nees)?;
             self.dimension = self.dimension.max(record.dimension.into());
         }
+        if let Some(nees6) = record.nees6() {
+            self.nees6.add(epoch, nees6)?;
+        }
         if let Some(nis) = record.nis() {
             self.nis.add(epoch, nis)?;
         }
@@ -153,6 +161,7 @@ impl RunRow {
             mean_squares: motion.map(|q| mean_square(&|r| r.error(q))),
             true_acceleration_mean_square: mean_square(&Record::true_acceleration),
             nees: mean(scored().filter_map(Record::nees)),
+            nees6: mean(scored().filter_map(Record::nees6)),
             nis: mean(scored().filter_map(Record::nis)),
             diverged: !failed && (ending.says_diverged || scored().any(|r| r.lost)),
             failure: ending.failure.clone(),

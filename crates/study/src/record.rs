@@ -50,6 +50,7 @@ pub struct Record {
     variances: [Vector3<f64>; QUANTITIES],
     true_acceleration: Vector3<f64>,
     nees: f64,
+    nees6: f64,
     nis: f64,
 }
 
@@ -66,6 +67,7 @@ impl Record {
             variances: [nothing; QUANTITIES],
             true_acceleration: nothing,
             nees: f64::NAN,
+            nees6: f64::NAN,
             nis: f64::NAN,
         }
     }
@@ -90,6 +92,11 @@ impl Record {
         Some(self.nees).filter(|n| !n.is_nan())
     }
 
+    /// NEES of position and velocity alone, divided by 6: the same states for every filter.
+    pub fn nees6(&self) -> Option<f64> {
+        Some(self.nees6).filter(|n| !n.is_nan())
+    }
+
     /// NIS divided by its rows; absent while coasting and for a filter of no dimension.
     pub fn nis(&self) -> Option<f64> {
         Some(self.nis).filter(|n| !n.is_nan())
@@ -106,9 +113,10 @@ impl Record {
         self.true_acceleration = or_nan(value);
     }
 
-    /// Puts the NEES over its dimension into the row.
-    pub fn set_nees(&mut self, value: Option<f64>) {
-        self.nees = value.unwrap_or(f64::NAN);
+    /// Puts the NEES over its dimension, and that of position and velocity over 6, into the row.
+    pub fn set_nees(&mut self, all: Option<f64>, six: Option<f64>) {
+        self.nees = all.unwrap_or(f64::NAN);
+        self.nees6 = six.unwrap_or(f64::NAN);
     }
 
     /// Puts the NIS over its rows into the row.
@@ -144,13 +152,14 @@ mod tests {
             let error = Vector3::new(f64::from(at) / 7.0, -0.0, f64::MIN_POSITIVE);
             record.set(quantity, Some(error), (at % 2 == 0).then_some(2.0 * error));
         }
-        record.set_nees(Some(0.1 + 0.2));
+        record.set_nees(Some(0.1 + 0.2), None);
         for (at, quantity) in (1..).zip(Quantity::ALL) {
             let error = Vector3::new(f64::from(at) / 7.0, -0.0, f64::MIN_POSITIVE);
             assert_eq!(record.error(quantity), Some(error));
             assert_eq!(record.variance(quantity), (at % 2 == 0).then_some(2.0 * error));
         }
         assert_eq!((record.epoch, record.nees(), record.nis()), (7, Some(0.1 + 0.2), None));
+        assert_eq!(record.nees6(), None);
         // A vector of which a part is no number is there, and whoever uses it will say so.
         let partly = Vector3::new(1.0, f64::NAN, 2.0);
         record.set_true_acceleration(Some(partly));

@@ -28,9 +28,15 @@ pub fn score(world: &World, truth: &TruthSample, estimate: &Estimate) -> Option<
         let p = estimate.block(block).filter(|_| covariance_finite)?;
         Some((axes * p * axes.transpose()).diagonal())
     };
+    let errors = [Some(position), Some(velocity), acceleration];
     let (nees, covariance_broken) = match &estimate.covariance {
         None => (None, false),
-        Some(p) => normalised_error(p, estimate.dimension, &[Some(position), Some(velocity), acceleration]),
+        Some(p) => normalised_error(p, estimate.dimension, &errors),
+    };
+    // Of a covariance that is none, no part is taken.
+    let nees6 = match &estimate.covariance {
+        Some(p) if estimate.dimension > 6 && !covariance_broken => normalised_error(p, 6, &errors).0,
+        _ => nees.filter(|_| estimate.dimension == 6),
     };
     let measured = truth.measured && !matches!(estimate.status, Some(Status::Coasting | Status::Initialising));
     let finite = |v: Vector3<f64>| v.iter().all(|x| x.is_finite()).then_some(v);
@@ -59,7 +65,7 @@ pub fn score(world: &World, truth: &TruthSample, estimate: &Estimate) -> Option<
         record.set(quantity, residual, variance.filter(|_| has_covariance));
     }
     record.set_true_acceleration(truth.acceleration.map(|a| axes * a));
-    record.set_nees(nees);
+    record.set_nees(nees, nees6);
     let rows = estimate.nis_rows.unwrap_or(world.nis_rows);
     let nis = estimate.nis.filter(|n| has_covariance && measured && n.is_finite());
     record.set_nis(nis.filter(|_| rows > 0).map(|n| n / f64::from(rows)));
@@ -139,6 +145,8 @@ mod tests {
         assert_eq!(s.true_acceleration(), Some(Vector3::new(0.0, 3e-6, 0.0)));
         // 1/1 + 4/2 + 9/3 over nine states.
         assert!((s.nees().unwrap() - 6.0 / 9.0).abs() < 1e-15);
+        // The acceleration is without error, so the sum is the same over six.
+        assert!((s.nees6().unwrap() - 1.0).abs() < 1e-15);
         assert_eq!(s.nis(), Some(2.0));
         assert!(!s.lost && !s.covariance_broken);
     }
@@ -228,7 +236,7 @@ mod tests {
             let mut broken = estimate();
             broken.covariance.as_mut().unwrap()[(8, 8)] = value;
             let s = score(&worlds::leo_venting(), &truth(), &broken).unwrap();
-            assert!(s.covariance_broken && s.nees().is_none());
+            assert!(s.covariance_broken && s.nees().is_none() && s.nees6().is_none());
         }
     }
 

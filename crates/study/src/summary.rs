@@ -1,7 +1,7 @@
 //! The statistics of one filter over the runs of a study.
 
 use nalgebra::Vector3;
-use stats::{mean_chi_square_bounds, mean_error_in_sigmas, rmse_standard_error, standard_error};
+use stats::{ScalarEnsemble, mean_chi_square_bounds, mean_error_in_sigmas, rmse_standard_error, standard_error};
 
 use crate::fold::{FilterResult, RunRow, mean_vector};
 use crate::record::Quantity;
@@ -36,6 +36,8 @@ pub struct Summary {
     pub mean_error_sigma: Option<f64>,
     /// NEES over its dimension.
     pub nees: ScalarSummary,
+    /// NEES of position and velocity alone, over 6: the same states for every filter.
+    pub nees6: ScalarSummary,
     /// NIS over its rows.
     pub nis: ScalarSummary,
     /// 95 % bounds of the mean over runs of NEES over its dimension, at one epoch.
@@ -108,22 +110,25 @@ impl Summary {
                 &[result.ensemble(Quantity::Position), result.ensemble(Quantity::Velocity)],
                 time,
             ),
-            nees: ScalarSummary {
-                mean: result.nees.mean(),
-                error: over_runs(|r| r.nees),
-                median: result.nees.median(),
-            },
-            nis: ScalarSummary {
-                mean: result.nis.mean(),
-                error: over_runs(|r| r.nis),
-                median: result.nis.median(),
-            },
+            nees: ScalarSummary::new(&result.nees, over_runs(|r| r.nees)),
+            nees6: ScalarSummary::new(&result.nees6, over_runs(|r| r.nees6)),
+            nis: ScalarSummary::new(&result.nis, over_runs(|r| r.nis)),
             nees_bounds: bounds.map(|b| [b.low, b.high]),
             nees_inside: result.nees.share_of_epochs_inside(bounds_for),
             nees_dimension: (dimension > 0).then_some(dimension),
             covariances_broken: result.covariances_broken,
             zero_acceleration: zero.map(|v| v.sum().sqrt()),
             zero_acceleration_axes: by_axis(zero.map(|v| v.map(f64::sqrt))),
+        }
+    }
+}
+
+impl ScalarSummary {
+    fn new(values: &ScalarEnsemble, error: Option<f64>) -> Self {
+        Self {
+            mean: values.mean(),
+            error,
+            median: values.median(),
         }
     }
 }

@@ -19,3 +19,23 @@ pub fn all() -> Vec<FileColumns> {
         FileColumns::new("search.csv", "a candidate of a search, by tune", searched::COLUMNS),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_column_has_a_name_of_its_own_and_a_meaning() {
+        for file in all() {
+            let mut names: Vec<&str> = file.columns.iter().map(|[name, ..]| *name).collect();
+            names.sort_unstable();
+            names.dedup();
+            assert_eq!(names.len(), file.columns.len(), "{}", file.file);
+            assert!(
+                file.columns.iter().all(|[_, _, meaning]| !meaning.is_empty()),
+                "{}",
+                file.file
+            );
+        }
+    }
+}

@@ -293,6 +293,15 @@ pub const COLUMNS: &[Column<Summary>] = &[
         "acc_rmse_of_zero_m_s2 on the third axis (normal, or LVLH z)",
         |s| s.zero_acceleration_axes[2],
     ),
+    number(
+        "nees6",
+        "1",
+        "mean NEES of position and velocity alone, over 6; 1 when consistent",
+        |s| s.nees6.mean,
+    ),
+    number("nees6_se", "1", "standard error of nees6 over the runs", |s| {
+        s.nees6.error
+    }),
 ];
 
 /// The number in a column; `None` where the cell is empty, holds text or does not exist.
