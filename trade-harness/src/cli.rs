@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use study::{Assignment, FilterChoice, ForeignFilter, Mapping, Variation, check_case};
 
-use crate::models::{Assignment, FilterChoice, ForeignFilter, Mapping, Range, Variation};
 use crate::pack;
+use crate::tuning::ranges::Range;
 use crate::tuning::standing::Objective;
 
 /// Compares navigation filters in simulated worlds; both are FMI 2.0 FMUs.
@@ -34,6 +35,8 @@ pub enum Command {
     Reproduce(ReproduceArgs),
     /// Show what an FMU is and which variables it has
     Inspect(InspectArgs),
+    /// Tell what every column of the CSV files means
+    Columns,
 }
 
 /// Where our FMUs come from.
@@ -114,25 +117,6 @@ pub struct StudyArgs {
     /// Where our FMUs come from.
     #[command(flatten)]
     pub build: BuildArgs,
-}
-
-impl StudyArgs {
-    /// Our own FMUs, nothing set, the filters of each scenario.
-    pub(crate) fn plain(seed: i32, build: &BuildArgs) -> Self {
-        Self {
-            filters: Vec::new(),
-            seed,
-            assignments: Vec::new(),
-            variations: Vec::new(),
-            step: None,
-            scheme: SchemeChoice::GaussSeidel,
-            truth: None,
-            foreign: Vec::new(),
-            mappings: Vec::new(),
-            tuned: None,
-            build: build.clone(),
-        }
-    }
 }
 
 /// An element of `--filters`; `--filters ''` is one that chooses nothing.
@@ -255,12 +239,7 @@ pub struct TuneArgs {
 
 /// The case stands in a file name.
 fn case_name(text: &str) -> Result<String, String> {
-    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
-    if !text.is_empty() && text.chars().all(plain) && !text.starts_with('.') {
-        Ok(text.to_owned())
-    } else {
-        Err("use letters, digits, '-', '_' and '.'".to_owned())
-    }
+    check_case(text).map(|()| text.to_owned())
 }
 
 /// `replay`.

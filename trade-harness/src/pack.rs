@@ -8,11 +8,11 @@ use std::process::{Command, Stdio};
 
 use fmi2_import::{Causality, Fmu, LIBRARY_SUFFIX, ModelDescription, PLATFORM};
 use interface::annotation::Filters;
+use study::{NAV, TRUTH, filters_of};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::HarnessError;
-use crate::models::{NAV, TRUTH, filters_of};
 use crate::output::write_whole;
 
 /// Our FMUs: crate and model name, and the identifier that library and C functions go by.

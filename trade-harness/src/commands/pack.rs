@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use super::{Verdict, say};
+use super::shared::{Verdict, say};
 use crate::HarnessError;
 use crate::cli::PackArgs;
 use crate::pack::default_folder;

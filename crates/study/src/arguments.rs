@@ -1,13 +1,17 @@
-//! What the command line says about filters and variables, taken apart.
+//! What a plan says about filters and variables, as text and taken apart.
 
+use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
 
 /// Preset that a bare filter name means.
 pub const PAPER: &str = "paper";
 
 /// `NAME[@PRESET]`, one of our filters with one of its parameter sets.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct FilterChoice {
     /// As given; stands in the `filter` column.
     pub label: String,
@@ -34,7 +38,8 @@ impl FromStr for FilterChoice {
 }
 
 /// `MODEL.VARIABLE=VALUE`.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct Assignment {
     /// `fmu-truth`, `fmu-nav` or the label of a foreign filter.
     pub model: String,
@@ -66,38 +71,9 @@ impl FromStr for Assignment {
     }
 }
 
-/// `MODEL.VARIABLE=LOW:HIGH`, what a search may vary.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Range {
-    /// `fmu-nav` or the label of a foreign filter.
-    pub model: String,
-    /// Name of a Real parameter of that FMU.
-    pub variable: String,
-    /// Smallest value; not checked here.
-    pub low: f64,
-    /// Largest value.
-    pub high: f64,
-}
-
-impl FromStr for Range {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || format!("'{text}' is not MODEL.VARIABLE=LOW:HIGH, as in fmu-nav.snc.q=1e-6:1e-3");
-        let Assignment { model, variable, value } = text.parse().map_err(|_| wrong())?;
-        let number = |text: &str| text.trim().parse().map_err(|_| wrong());
-        let (low, high) = value.split_once(':').ok_or_else(wrong)?;
-        Ok(Self {
-            model,
-            variable,
-            low: number(low)?,
-            high: number(high)?,
-        })
-    }
-}
-
 /// `LABEL=PATH`, a foreign filter.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct ForeignFilter {
     /// Text of the `filter` column.
     pub label: String,
@@ -122,7 +98,8 @@ impl FromStr for ForeignFilter {
 }
 
 /// `LABEL.THEIR_NAME=OUR_NAME`, a name mapping for a foreign FMU.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct Mapping {
     /// `fmu-truth` or the label of a foreign filter.
     pub model: String,
@@ -146,6 +123,52 @@ impl FromStr for Mapping {
         })
     }
 }
+
+impl fmt::Display for FilterChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.label)
+    }
+}
+
+impl fmt::Display for Assignment {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}={}", self.model, self.variable, self.value)
+    }
+}
+
+impl fmt::Display for ForeignFilter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}", self.label, self.path.display())
+    }
+}
+
+impl fmt::Display for Mapping {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}={}", self.model, self.own, self.contract)
+    }
+}
+
+/// Files hold these as the text that the command line takes.
+macro_rules! as_text {
+    ($($type:ty),*) => {$(
+        impl TryFrom<String> for $type {
+            type Error = String;
+
+            fn try_from(text: String) -> Result<Self, String> {
+                text.parse()
+            }
+        }
+
+        impl From<$type> for String {
+            fn from(value: $type) -> Self {
+                value.to_string()
+            }
+        }
+    )*};
+}
+pub(crate) use as_text;
+
+as_text!(FilterChoice, Assignment, ForeignFilter, Mapping);
 
 fn is_label(text: &str) -> bool {
     !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_')
@@ -190,23 +213,6 @@ mod tests {
     }
 
     #[test]
-    fn ranges_are_two_numbers() {
-        let range: Range = "fmu-nav.snc.q=1e-6:1e-3".parse().unwrap();
-        assert_eq!((range.model.as_str(), range.variable.as_str()), ("fmu-nav", "snc.q"));
-        assert!((range.low / 1e-6 - 1.0).abs() < 1e-15 && (range.high / 1e-3 - 1.0).abs() < 1e-15);
-        for bad in [
-            "",
-            "fmu-nav.snc.q",
-            "fmu-nav.snc.q=1",
-            "fmu-nav.snc.q=1:",
-            "fmu-nav.snc.q=a:2",
-            "snc=1:2",
-        ] {
-            assert!(bad.parse::<Range>().unwrap_err().contains("LOW:HIGH"), "{bad}");
-        }
-    }
-
-    #[test]
     fn foreign_filters_and_mappings() {
         let f: ForeignFilter = "their-ekf=a/b=c.fmu".parse().unwrap();
         assert_eq!((f.label.as_str(), f.path), ("their-ekf", PathBuf::from("a/b=c.fmu")));
@@ -219,5 +225,19 @@ mod tests {
             ("their-ekf", "x.hat", "est.r_tc_n")
         );
         assert!("x=y".parse::<Mapping>().unwrap_err().contains("OUR_NAME"));
+    }
+
+    #[test]
+    fn what_is_written_is_what_was_read() {
+        for text in ["milton", "milton@consistent"] {
+            assert_eq!(text.parse::<FilterChoice>().unwrap().to_string(), text);
+        }
+        let text = "fmu-truth.target_burn.a_t_n[1]=-1e-3";
+        assert_eq!(text.parse::<Assignment>().unwrap().to_string(), text);
+        assert_eq!("a=b/c.fmu".parse::<ForeignFilter>().unwrap().to_string(), "a=b/c.fmu");
+        let text = "their-ekf.x.hat=est.r_tc_n";
+        assert_eq!(text.parse::<Mapping>().unwrap().to_string(), text);
+        let read: Result<FilterChoice, _> = serde_json::from_str("\"a@b@c\"");
+        assert!(read.unwrap_err().to_string().contains("NAME@PRESET"));
     }
 }

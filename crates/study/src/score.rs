@@ -3,63 +3,9 @@
 use nalgebra::{SMatrix, SVector, Vector3};
 use stats::nees;
 
-use crate::scenarios::Scenario;
-use crate::signals::{Estimate, Status, TruthSample};
-
-/// Quantities an ensemble is kept of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
-    /// Relative position in the axes of the results, m.
-    Position,
-    /// Relative velocity in the axes of the results, m/s.
-    Velocity,
-    /// Unmodelled acceleration in the axes of the results, m/s2.
-    Acceleration,
-    /// Accelerometer bias in chaser body axes, m/s2.
-    Bias,
-    /// First three rows of the filter's innovation, measured minus predicted.
-    Residual,
-    /// The next three, where the measurement has six.
-    ResidualRate,
-}
-
-/// Number of quantities.
-pub const QUANTITIES: usize = Quantity::ALL.len();
-
-impl Quantity {
-    /// All of them, in the order of [`Score::errors`].
-    pub const ALL: [Self; 6] = [
-        Self::Position,
-        Self::Velocity,
-        Self::Acceleration,
-        Self::Bias,
-        Self::Residual,
-        Self::ResidualRate,
-    ];
-}
-
-/// Errors of one estimate.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Score {
-    /// Index of the epoch, from 0: one less than the ordinal of the sample.
-    pub epoch: usize,
-    /// Estimate minus truth by [`Quantity`]; the innovation as it is.
-    pub errors: [Option<Vector3<f64>>; QUANTITIES],
-    /// Variances the filter claims, same axes.
-    pub variances: [Option<Vector3<f64>>; QUANTITIES],
-    /// True acceleration in the axes of the results, m/s2: the error of an estimate of zero.
-    pub true_acceleration: Option<Vector3<f64>>,
-    /// NEES divided by its dimension.
-    pub nees: Option<f64>,
-    /// Number of states of the NEES.
-    pub dimension: usize,
-    /// The filter offers a covariance, but it is not symmetric, positive definite and finite.
-    pub covariance_broken: bool,
-    /// NIS divided by its rows; `None` while coasting and for a filter of no dimension.
-    pub nis: Option<f64>,
-    /// Position error beyond 100 m and, if a sigma is claimed, beyond ten times 3 sigma.
-    pub lost: bool,
-}
+use crate::record::{Quantity, Record};
+use crate::samples::{Estimate, Status, TruthSample};
+use crate::world::World;
 
 /// Position error, m, below which a filter is never called diverged.
 const LOST_BEYOND: f64 = 100.0;
@@ -67,8 +13,8 @@ const LOST_BEYOND: f64 = 100.0;
 const LOST_FACTOR: f64 = 10.0;
 
 /// Compares an estimate with the truth at its epoch; `None` where the axes of the results are undefined.
-pub fn score(scenario: &Scenario, truth: &TruthSample, estimate: &Estimate) -> Option<Score> {
-    let axes = (scenario.signals.report_axes)(truth)?;
+pub fn score(world: &World, truth: &TruthSample, estimate: &Estimate) -> Option<Record> {
+    let axes = world.axes.matrix(truth)?;
     let position = estimate.position - truth.position;
     let velocity = estimate.velocity - truth.velocity;
     let acceleration = Option::zip(estimate.acceleration, truth.acceleration).map(|(e, t)| e - t);
@@ -82,51 +28,48 @@ pub fn score(scenario: &Scenario, truth: &TruthSample, estimate: &Estimate) -> O
         let p = estimate.block(block).filter(|_| covariance_finite)?;
         Some((axes * p * axes.transpose()).diagonal())
     };
-    let (normalised, covariance_broken) = match &estimate.covariance {
+    let errors = [Some(position), Some(velocity), acceleration];
+    let (nees, covariance_broken) = match &estimate.covariance {
         None => (None, false),
-        Some(p) => normalised_error(p, estimate.dimension, &[Some(position), Some(velocity), acceleration]),
+        Some(p) => normalised_error(p, estimate.dimension, &errors),
+    };
+    // Of a covariance that is none, no part is taken.
+    let nees6 = match &estimate.covariance {
+        Some(p) if estimate.dimension > 6 && !covariance_broken => normalised_error(p, 6, &errors).0,
+        _ => nees.filter(|_| estimate.dimension == 6),
     };
     let measured = truth.measured && !matches!(estimate.status, Some(Status::Coasting | Status::Initialising));
     let finite = |v: Vector3<f64>| v.iter().all(|x| x.is_finite()).then_some(v);
-    let residual = estimate.residual.map(|r| r.filter(|_| measured).and_then(finite));
     // Without a covariance there is none of the innovation either; what stands under those names is a start value.
     let has_covariance = estimate.dimension > 0;
-    let residual_variance = |i: usize| {
-        let claimed = residual[i].and(estimate.residual_variance[i]).and_then(finite);
-        claimed.filter(|_| has_covariance)
-    };
-
     let position_variance = turned_variance(0);
-    let lost = position.norm() > LOST_BEYOND
+
+    let mut record = Record::new(truth.epoch);
+    // At most nine, as the rows of the covariance.
+    record.dimension = estimate.dimension as u8;
+    record.covariance_broken = covariance_broken;
+    record.lost = position.norm() > LOST_BEYOND
         && position_variance.is_none_or(|v| position.norm() > LOST_FACTOR * 3.0 * v.sum().max(0.0).sqrt());
-    Some(Score {
-        epoch: truth.count.saturating_sub(1) as usize,
-        errors: [
-            Some(axes * position),
-            Some(axes * velocity),
-            acceleration.map(|a| axes * a),
-            bias,
-            residual[0],
-            residual[1],
-        ],
-        variances: [
-            position_variance,
-            turned_variance(1),
-            turned_variance(2).filter(|_| acceleration.is_some()),
-            estimate.bias_sigma.map(|s| s.component_mul(&s)).and_then(finite),
-            residual_variance(0),
-            residual_variance(1),
-        ],
-        true_acceleration: truth.acceleration.map(|a| axes * a),
-        nees: normalised,
-        dimension: estimate.dimension,
-        covariance_broken,
-        nis: estimate
-            .nis
-            .filter(|n| has_covariance && measured && n.is_finite())
-            .map(|n| n / f64::from(scenario.signals.nis_rows)),
-        lost,
-    })
+    record.set(Quantity::Position, Some(axes * position), position_variance);
+    record.set(Quantity::Velocity, Some(axes * velocity), turned_variance(1));
+    record.set(
+        Quantity::Acceleration,
+        acceleration.map(|a| axes * a),
+        turned_variance(2).filter(|_| acceleration.is_some()),
+    );
+    let bias_variance = estimate.bias_sigma.map(|s| s.component_mul(&s)).and_then(finite);
+    record.set(Quantity::Bias, bias, bias_variance);
+    for (part, quantity) in [Quantity::Residual, Quantity::ResidualRate].into_iter().enumerate() {
+        let residual = estimate.residual[part].filter(|_| measured).and_then(finite);
+        let variance = residual.and(estimate.residual_variance[part]).and_then(finite);
+        record.set(quantity, residual, variance.filter(|_| has_covariance));
+    }
+    record.set_true_acceleration(truth.acceleration.map(|a| axes * a));
+    record.set_nees(nees, nees6);
+    let rows = estimate.nis_rows.unwrap_or(world.nis_rows);
+    let nis = estimate.nis.filter(|n| has_covariance && measured && n.is_finite());
+    record.set_nis(nis.filter(|_| rows > 0).map(|n| n / f64::from(rows)));
+    Some(record)
 }
 
 /// NEES divided by the dimension, and whether the covariance refused it.
@@ -154,11 +97,13 @@ fn normalised_error(
 #[allow(clippy::float_cmp)]
 mod tests {
     use super::*;
-    use crate::scenarios::SCENARIOS;
+    use crate::record::QUANTITIES;
+    use crate::worlds;
 
     fn truth() -> TruthSample {
         TruthSample {
             count: 7,
+            epoch: 6,
             time: 7.0,
             position: Vector3::new(10.0, 0.0, 0.0),
             acceleration: Some(Vector3::new(0.0, 3e-6, 0.0)),
@@ -184,6 +129,7 @@ mod tests {
             residual: [Some(Vector3::repeat(0.5)), None],
             residual_variance: [Some(Vector3::repeat(0.25)), None],
             nis: Some(6.0),
+            nis_rows: None,
             jerk_root: None,
             status: Some(Status::Tracking),
         }
@@ -191,16 +137,30 @@ mod tests {
 
     #[test]
     fn a_case_worked_by_hand() {
-        let s = score(&SCENARIOS[0], &truth(), &estimate()).unwrap();
+        let s = score(&worlds::leo_venting(), &truth(), &estimate()).unwrap();
         assert_eq!(s.epoch, 6);
-        assert_eq!(s.errors[0], Some(Vector3::new(-3.0, 2.0, 1.0)));
-        assert_eq!(s.variances[0], Some(Vector3::new(3.0, 2.0, 1.0)));
-        assert_eq!(s.errors[3], Some(Vector3::new(1e-6, 0.0, 0.0)));
-        assert_eq!(s.true_acceleration, Some(Vector3::new(0.0, 3e-6, 0.0)));
+        assert_eq!(s.error(Quantity::Position), Some(Vector3::new(-3.0, 2.0, 1.0)));
+        assert_eq!(s.variance(Quantity::Position), Some(Vector3::new(3.0, 2.0, 1.0)));
+        assert_eq!(s.error(Quantity::Bias), Some(Vector3::new(1e-6, 0.0, 0.0)));
+        assert_eq!(s.true_acceleration(), Some(Vector3::new(0.0, 3e-6, 0.0)));
         // 1/1 + 4/2 + 9/3 over nine states.
-        assert!((s.nees.unwrap() - 6.0 / 9.0).abs() < 1e-15);
-        assert_eq!(s.nis, Some(2.0));
+        assert!((s.nees().unwrap() - 6.0 / 9.0).abs() < 1e-15);
+        // The acceleration is without error, so the sum is the same over six.
+        assert!((s.nees6().unwrap() - 1.0).abs() < 1e-15);
+        assert_eq!(s.nis(), Some(2.0));
         assert!(!s.lost && !s.covariance_broken);
+    }
+
+    #[test]
+    fn rows_of_the_nis_are_the_filters_own_where_it_tells() {
+        let nis = |rows| {
+            let e = Estimate {
+                nis_rows: rows,
+                ..estimate()
+            };
+            score(&worlds::leo_venting(), &truth(), &e).unwrap().nis()
+        };
+        assert_eq!([None, Some(2), Some(0)].map(nis), [Some(2.0), Some(3.0), None]);
     }
 
     #[test]
@@ -214,12 +174,15 @@ mod tests {
             ..truth()
         };
         for s in [
-            score(&SCENARIOS[0], &truth(), &coasting),
-            score(&SCENARIOS[0], &dropped, &estimate()),
+            score(&worlds::leo_venting(), &truth(), &coasting),
+            score(&worlds::leo_venting(), &dropped, &estimate()),
         ] {
             let s = s.unwrap();
-            assert_eq!((s.nis, s.errors[4], s.variances[4]), (None, None, None));
-            assert!(s.nees.is_some());
+            assert_eq!(
+                (s.nis(), s.error(Quantity::Residual), s.variance(Quantity::Residual)),
+                (None, None, None)
+            );
+            assert!(s.nees().is_some());
         }
     }
 
@@ -230,17 +193,23 @@ mod tests {
             acceleration: None,
             ..estimate()
         };
-        let s = score(&SCENARIOS[0], &truth(), &six).unwrap();
-        assert_eq!((s.errors[2], s.variances[2]), (None, None));
-        assert!((s.nees.unwrap() - 1.0).abs() < 1e-15);
+        let s = score(&worlds::leo_venting(), &truth(), &six).unwrap();
+        assert_eq!(
+            (s.error(Quantity::Acceleration), s.variance(Quantity::Acceleration)),
+            (None, None)
+        );
+        assert!((s.nees().unwrap() - 1.0).abs() < 1e-15);
         // Six states with a covariance, and an acceleration without one.
         let network = Estimate {
             dimension: 6,
             ..estimate()
         };
-        let s = score(&SCENARIOS[0], &truth(), &network).unwrap();
-        assert_eq!((s.errors[2], s.variances[2]), (Some(Vector3::zeros()), None));
-        assert!((s.nees.unwrap() - 1.0).abs() < 1e-15);
+        let s = score(&worlds::leo_venting(), &truth(), &network).unwrap();
+        assert_eq!(
+            (s.error(Quantity::Acceleration), s.variance(Quantity::Acceleration)),
+            (Some(Vector3::zeros()), None)
+        );
+        assert!((s.nees().unwrap() - 1.0).abs() < 1e-15);
         let none = Estimate {
             covariance: None,
             bias_sigma: None,
@@ -248,17 +217,17 @@ mod tests {
             residual_variance: [None; 2],
             ..estimate()
         };
-        let s = score(&SCENARIOS[0], &truth(), &none).unwrap();
-        assert_eq!(s.variances, [None; QUANTITIES]);
-        assert_eq!((s.nees, s.nis, s.covariance_broken), (None, None, false));
+        let s = score(&worlds::leo_venting(), &truth(), &none).unwrap();
+        assert_eq!(Quantity::ALL.map(|q| s.variance(q)), [None; QUANTITIES]);
+        assert_eq!((s.nees(), s.nis(), s.covariance_broken), (None, None, false));
         let observer = Estimate {
             dimension: 0,
             covariance: None,
             ..estimate()
         };
-        let s = score(&SCENARIOS[0], &truth(), &observer).unwrap();
-        assert_eq!((s.nis, s.variances[4]), (None, None));
-        assert_eq!(s.errors[4], Some(Vector3::repeat(0.5)));
+        let s = score(&worlds::leo_venting(), &truth(), &observer).unwrap();
+        assert_eq!((s.nis(), s.variance(Quantity::Residual)), (None, None));
+        assert_eq!(s.error(Quantity::Residual), Some(Vector3::repeat(0.5)));
     }
 
     #[test]
@@ -266,8 +235,8 @@ mod tests {
         for value in [-1.0, f64::NAN] {
             let mut broken = estimate();
             broken.covariance.as_mut().unwrap()[(8, 8)] = value;
-            let s = score(&SCENARIOS[0], &truth(), &broken).unwrap();
-            assert!(s.covariance_broken && s.nees.is_none());
+            let s = score(&worlds::leo_venting(), &truth(), &broken).unwrap();
+            assert!(s.covariance_broken && s.nees().is_none() && s.nees6().is_none());
         }
     }
 
@@ -277,7 +246,7 @@ mod tests {
             let mut e = estimate();
             e.position = truth().position + Vector3::new(metres, 0.0, 0.0);
             e.covariance = covariance.then(|| SMatrix::identity() * (sigma * sigma / 3.0));
-            score(&SCENARIOS[0], &truth(), &e).unwrap().lost
+            score(&worlds::leo_venting(), &truth(), &e).unwrap().lost
         };
         assert!(!off(99.0, 1.0, true));
         assert!(off(101.0, 1.0, true));
@@ -287,6 +256,6 @@ mod tests {
 
     #[test]
     fn undefined_axes_give_no_score() {
-        assert!(score(&SCENARIOS[0], &TruthSample::default(), &estimate()).is_none());
+        assert!(score(&worlds::leo_venting(), &TruthSample::default(), &estimate()).is_none());
     }
 }

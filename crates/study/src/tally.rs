@@ -1,11 +1,14 @@
-//! What a search keeps of a candidate's runs: sums, where a study keeps ensembles over time.
+//! What is kept of runs where only sums matter, as in a search: a study keeps ensembles over time.
 //!
-//! Hundreds of candidates run side by side, each with thousands of samples, so nothing here grows with their number.
+//! Hundreds of filters run side by side, each with thousands of samples, so nothing here grows with their number.
 
-use crate::HarnessError;
+use std::convert::Infallible;
+
 use crate::ordered::in_order;
-use crate::run::{Spec, run_once};
-use crate::score::{Quantity, Score, score};
+use crate::record::{Quantity, Record};
+use crate::run::run_once;
+use crate::score::score;
+use crate::spec::Spec;
 
 /// Sums over the scored samples of the runs that did not fail.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -82,17 +85,17 @@ struct OneRun {
 }
 
 impl OneRun {
-    fn push(&mut self, score: &Score) {
-        for (sum, error) in self.squares.iter_mut().zip(&score.errors) {
-            if let Some(error) = error {
+    fn push(&mut self, record: &Record) {
+        for (sum, quantity) in self.squares.iter_mut().zip(Quantity::ALL) {
+            if let Some(error) = record.error(quantity) {
                 sum.push(error.norm_squared());
             }
         }
-        if let Some(nees) = score.nees {
+        if let Some(nees) = record.nees() {
             self.nees.push(nees);
         }
-        self.lost |= score.lost;
-        self.broken |= score.covariance_broken;
+        self.lost |= record.lost;
+        self.broken |= record.covariance_broken;
     }
 }
 
@@ -101,11 +104,10 @@ impl OneRun {
 /// * `finished`: called after each run.
 /// * returns: by filter, in the order of the spec; the same for any number of threads.
 ///
-/// # Errors
-/// None of its own; what goes wrong in a run is counted.
-pub fn evaluate(spec: &Spec, runs: u32, jobs: usize, mut finished: impl FnMut()) -> Result<Vec<Tally>, HarnessError> {
+/// What goes wrong in a run is counted.
+pub fn evaluate(spec: &Spec, runs: u32, jobs: usize, mut finished: impl FnMut()) -> Vec<Tally> {
     let mut tallies = vec![Tally::default(); spec.filters.len()];
-    in_order(
+    let Ok(()) = in_order(
         runs,
         jobs,
         // A handful of sums may wait without harm.
@@ -116,20 +118,20 @@ pub fn evaluate(spec: &Spec, runs: u32, jobs: usize, mut finished: impl FnMut())
                 tally.add(run);
             }
             finished();
-            Ok::<(), HarnessError>(())
+            Ok::<(), Infallible>(())
         },
-    )?;
-    Ok(tallies)
+    );
+    tallies
 }
 
 fn one_run(spec: &Spec, run: u32) -> Vec<OneRun> {
     let first = spec.first_scored();
     let mut results = vec![OneRun::default(); spec.filters.len()];
     let report = run_once(spec, run, |filter, truth, estimate| {
-        let score = score(spec.scenario, truth, estimate)
+        let record = score(&spec.world, truth, estimate)
             .ok_or_else(|| format!("the axes of the results are undefined at {} s", truth.time))?;
-        if score.epoch >= first {
-            results[filter].push(&score);
+        if record.epoch as usize >= first {
+            results[filter].push(&record);
         }
         Ok(())
     });

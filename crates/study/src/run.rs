@@ -1,87 +1,16 @@
 //! One run: one world, every filter of the study beside it.
 
-mod history;
-
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use cosim::{OnSlaveError, RunOptions, Scheme, SlaveId, StepContext, System, Value};
+use cosim::{RunOptions, Scheme, SlaveId, StepContext, System, Value};
 
-use crate::HarnessError;
-use crate::models::Participant;
-use crate::scenarios::Scenario;
-use crate::signals::{Estimate, EstimateReader, Status, TruthReader, TruthSample};
-
-use history::History;
-
-/// Differences of epochs below this are rounding, s.
-const SAME_TIME: f64 = 1e-6;
-
-/// What a run needs to know, apart from its number.
-#[derive(Debug)]
-pub struct Spec {
-    /// The world.
-    pub scenario: &'static Scenario,
-    /// The truth.
-    pub truth: Participant,
-    /// The filters, in the order of the results.
-    pub filters: Vec<Participant>,
-    /// Seed of the study.
-    pub seed: i32,
-    /// Communication step, s.
-    pub step: f64,
-    /// Time between sensor samples, s.
-    pub sample_period: f64,
-    /// When values are handed over.
-    pub scheme: Scheme,
-}
-
-impl Spec {
-    /// Number of sensor samples in a run; sample k is at k times the sample period, from k = 1.
-    pub fn epochs(&self) -> usize {
-        // A float-to-integer cast saturates; SAME_TIME forgives a duration that is a rounded multiple.
-        ((self.scenario.duration + SAME_TIME) / self.sample_period).floor() as usize
-    }
-
-    /// Time of an epoch, s.
-    pub fn time(&self, epoch: usize) -> f64 {
-        (epoch + 1) as f64 * self.sample_period
-    }
-
-    /// First epoch that counts in statistics over time.
-    pub fn first_scored(&self) -> usize {
-        (((self.scenario.scored_from - SAME_TIME) / self.sample_period).ceil() as usize).saturating_sub(1)
-    }
-
-    /// Checks that every sample that is used falls on a communication point.
-    ///
-    /// # Errors
-    /// [`HarnessError::StepGrid`].
-    pub fn check_grid(&self) -> Result<(), HarnessError> {
-        let whole = |x: f64| (x - x.round()).abs() < 1e-9 * x.abs().max(1.0) && x.round() >= 1.0;
-        let (step, period) = (self.step, self.sample_period);
-        let positive = step.is_finite() && step > 0.0 && period.is_finite() && period > 0.0;
-        if positive && (whole(period / step) || whole(step / period)) {
-            Ok(())
-        } else {
-            Err(HarnessError::StepGrid { step, period })
-        }
-    }
-
-    fn options(&self, timing: bool) -> RunOptions {
-        // With the Jacobi scheme the last sample is handed over one step late.
-        let extra = if self.scheme == Scheme::Jacobi { self.step } else { 0.0 };
-        RunOptions {
-            start: 0.0,
-            stop: self.scenario.duration + extra,
-            step: self.step,
-            scheme: self.scheme,
-            on_slave_error: OnSlaveError::Isolate,
-            timing,
-            ..RunOptions::default()
-        }
-    }
-}
+use crate::error::{StudyError, chain};
+use crate::history::History;
+use crate::participant::Participant;
+use crate::readers::{EstimateReader, TruthReader};
+use crate::samples::{Estimate, Status, TruthSample};
+use crate::spec::{SAME_TIME, Spec};
 
 /// Why a filter has no result in a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -134,14 +63,14 @@ struct Coupled {
     system: System,
     truth: SlaveId,
     truth_reader: TruthReader,
-    seats: Vec<Result<Seat, HarnessError>>,
+    seats: Vec<Result<Seat, StudyError>>,
 }
 
 /// Instantiates and wires the truth and every filter; a filter that cannot be is an error of its own.
-fn couple(spec: &Spec, run: u32) -> Result<Coupled, HarnessError> {
+fn couple(spec: &Spec, run: u32) -> Result<Coupled, StudyError> {
     let mut system = System::new();
     let truth = seat(&mut system, &spec.truth, spec.seed, run)?;
-    let truth_reader = TruthReader::new(&system, truth, &spec.truth, spec.scenario)?;
+    let truth_reader = TruthReader::new(&system, truth, &spec.truth, spec.world.frame)?;
     let placed: Vec<_> = spec
         .filters
         .iter()
@@ -155,12 +84,12 @@ fn couple(spec: &Spec, run: u32) -> Result<Coupled, HarnessError> {
             .iter()
             .find(|u| u.slave == id && u.input.starts_with("nav_init."))
         {
-            return Err(HarnessError::MissingInput {
+            return Err(StudyError::MissingInput {
                 label: filter.label.clone(),
                 input: open.input.clone(),
             });
         }
-        let reader = EstimateReader::new(&system, id, filter, spec.scenario)?;
+        let reader = EstimateReader::new(&system, id, filter, spec.world.frame)?;
         Ok(Seat { id, reader, last: 0 })
     });
     let seats = seats.collect();
@@ -173,7 +102,7 @@ fn couple(spec: &Spec, run: u32) -> Result<Coupled, HarnessError> {
 }
 
 /// Adds a slave with its start values; a foreign one need not know of seeds and runs.
-fn seat(system: &mut System, participant: &Participant, seed: i32, run: u32) -> Result<SlaveId, HarnessError> {
+fn seat(system: &mut System, participant: &Participant, seed: i32, run: u32) -> Result<SlaveId, StudyError> {
     let id = system.add(participant.source.create(&participant.label)?)?;
     for (own, contract) in &participant.aliases {
         system.alias(id, own, contract)?;
@@ -199,7 +128,7 @@ fn seat(system: &mut System, participant: &Participant, seed: i32, run: u32) -> 
 ///
 /// # Errors
 /// Whatever a slave or the wiring refuses.
-pub fn rehearse(spec: &Spec) -> Result<Vec<String>, HarnessError> {
+pub fn rehearse(spec: &Spec) -> Result<Vec<String>, StudyError> {
     spec.check_grid()?;
     let mut coupled = couple(spec, 0)?;
     let mut seats = Vec::new();
@@ -210,7 +139,7 @@ pub fn rehearse(spec: &Spec) -> Result<Vec<String>, HarnessError> {
         .system
         .run(&spec.options(false), |_: &mut StepContext<'_>| ControlFlow::Break(()))?;
     if let Some(refused) = report.isolated.into_iter().next() {
-        return Err(HarnessError::Refused {
+        return Err(StudyError::Refused {
             label: refused.name,
             source: Box::new(refused.error),
         });
@@ -227,7 +156,7 @@ pub fn rehearse(spec: &Spec) -> Result<Vec<String>, HarnessError> {
 ///
 /// # Errors
 /// As for a run; a filter that fails alone is an error here.
-pub fn call_time(spec: &Spec, filter: &Participant) -> Result<Duration, HarnessError> {
+pub fn call_time(spec: &Spec, filter: &Participant) -> Result<Duration, StudyError> {
     const CALLS: u32 = 2000;
     let mut system = System::new();
     seat(&mut system, filter, spec.seed, 0)?;
@@ -286,12 +215,12 @@ pub fn run_once(
         let Some(count) = truth_reader.newest(context) else {
             return ControlFlow::Continue(());
         };
-        if count > history.newest && context.time() <= spec.scenario.duration + SAME_TIME {
+        if count > history.newest && context.time() <= spec.world.duration_s + SAME_TIME {
             let number = u32::try_from(count).unwrap_or_default();
             let Some(sample) = truth_reader.sample(context, number) else {
                 return ControlFlow::Continue(());
             };
-            if let Err(message) = history.push(spec, context.time(), sample) {
+            if let Err(message) = history.push(context.time(), sample) {
                 return ControlFlow::Break(message);
             }
         }
@@ -397,19 +326,4 @@ fn fail_all(endings: &mut [Ending], time: Option<f64>, message: &str) {
             message: message.to_owned(),
         });
     }
-}
-
-/// An error with its causes, in one line.
-pub(crate) fn chain(error: &dyn std::error::Error) -> String {
-    let mut text = error.to_string();
-    let mut cause = error.source();
-    while let Some(inner) = cause {
-        let inner_text = inner.to_string();
-        // Transparent wrappers repeat their cause.
-        if !text.ends_with(&inner_text) {
-            text = format!("{text}: {inner_text}");
-        }
-        cause = inner.source();
-    }
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

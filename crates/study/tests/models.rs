@@ -1,4 +1,4 @@
-//! Filters, presets, `--set` and `--map` resolved against FMUs that consist of a description alone.
+//! Filters, presets, assignments and mappings resolved against FMUs that consist of a description alone.
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use std::collections::BTreeMap;
@@ -6,10 +6,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use cosim::Value;
-use trade_harness::HarnessError;
-use trade_harness::models::{Assignment, FilterChoice, ForeignFilter, Mapping, Models, Participant, Variation};
-use trade_harness::scenarios::SCENARIOS;
-use trade_harness::tuning::sets::{TunedFile, TunedSet};
+use study::{
+    Assignment, FilterChoice, ForeignFilter, Mapping, Models, OwnFmus, Participant, Plan, Status, StudyError, TunedSet,
+    Variation, worlds,
+};
 
 const TRUTH: &str = r#"
     <ScalarVariable name="scenario" valueReference="0" causality="parameter" variability="fixed"><Enumeration declaredType="Scenario" start="1"/></ScalarVariable>
@@ -40,6 +40,7 @@ fn write_fmu(folder: &Path, name: &str, variables: &str) -> PathBuf {
   <TypeDefinitions>
     <SimpleType name="Scenario"><Enumeration><Item name="leo_venting" value="1"/></Enumeration></SimpleType>
     <SimpleType name="Filter"><Enumeration><Item name="fixed_q" value="1"/><Item name="milton" value="2"/><Item name="observer" value="3"/></Enumeration></SimpleType>
+    <SimpleType name="Mode"><Enumeration><Item name="diverged" value="1"/><Item name="asleep" value="2"/><Item name="tracking" value="3"/></Enumeration></SimpleType>
   </TypeDefinitions>
   <VendorAnnotations><Tool name="trade-harness"><Filters><Presets>
     <Preset filter="milton" name="short" about="a short buffer"><Set variable="milton.m_b" value="5"/><Set variable="milton.whiten" value="true"/></Preset>
@@ -58,11 +59,7 @@ fn write_fmu(folder: &Path, name: &str, variables: &str) -> PathBuf {
 }
 
 /// Resolves a study of a truth, our filters and a foreign one called `other`.
-fn cast(
-    filters: &[&str],
-    sets: &[&str],
-    maps: &[&str],
-) -> Result<(Models, Participant, Vec<Participant>), HarnessError> {
+fn cast(filters: &[&str], sets: &[&str], maps: &[&str]) -> Result<(Models, Participant, Vec<Participant>), StudyError> {
     let folder = tempfile::tempdir().unwrap();
     let truth = write_fmu(folder.path(), "truth", TRUTH);
     let nav = write_fmu(folder.path(), "nav", NAV);
@@ -72,11 +69,11 @@ fn cast(
     let choices: Vec<FilterChoice> = filters.iter().map(|f| f.parse().unwrap()).collect();
     let sets: Vec<Assignment> = sets.iter().map(|s| s.parse().unwrap()).collect();
     let models = Models::open(&truth, Some(&nav), &[other], &maps)?;
-    let (truth, filters) = models.cast(&SCENARIOS[0], &choices, &sets)?;
+    let (truth, filters) = models.cast(&worlds::leo_venting(), &choices, &[], &sets)?;
     Ok((models, truth, filters))
 }
 
-fn refused(filters: &[&str], sets: &[&str], maps: &[&str]) -> HarnessError {
+fn refused(filters: &[&str], sets: &[&str], maps: &[&str]) -> StudyError {
     cast(filters, sets, maps).err().unwrap()
 }
 
@@ -99,9 +96,13 @@ fn presets_come_before_what_the_user_sets() {
     // A foreign filter that knows one world only is not told which.
     assert_eq!(value(&filters[2], "scenario"), None);
     assert!(short.record.contains(&("filter".to_owned(), "milton".to_owned())));
-    assert_eq!(models.sample_period(&truth), Some(0.5));
+    let world = worlds::leo_venting();
+    assert_eq!(models.sample_period(&truth, &world), Some(0.5));
     let (models, truth, _) = cast(&[], &[], &[]).unwrap();
-    assert_eq!(models.sample_period(&truth), Some(2.0));
+    assert_eq!(models.sample_period(&truth, &world), Some(2.0));
+    // Not positive: the world's own.
+    let (models, truth, _) = cast(&[], &["fmu-truth.sample_period=-1"], &[]).unwrap();
+    assert_eq!(models.sample_period(&truth, &world), Some(1.0));
 }
 
 #[test]
@@ -116,34 +117,34 @@ fn mappings_reach_every_element_of_a_vector() {
 
 #[test]
 fn what_does_not_exist_or_fit_is_told() {
-    let known = |error: HarnessError, parts: &[&str]| {
+    let known = |error: StudyError, parts: &[&str]| {
         let text = error.to_string();
         assert!(parts.iter().all(|p| text.contains(p)), "{text}");
         error
     };
     let e = known(refused(&["milto"], &[], &[]), &["milto", "fixed_q, milton, observer"]);
-    assert!(matches!(e, HarnessError::UnknownFilter { .. }));
+    assert!(matches!(e, StudyError::UnknownFilter { .. }));
     let e = known(refused(&["milton@long"], &[], &[]), &["long", "paper, short"]);
-    assert!(matches!(e, HarnessError::UnknownPreset { .. }));
+    assert!(matches!(e, StudyError::UnknownPreset { .. }));
     let e = known(
         refused(&[], &["milton.m_b=3"], &[]),
         &["milton", "fmu-truth, fmu-nav, other"],
     );
-    assert!(matches!(e, HarnessError::UnknownModel { .. }));
+    assert!(matches!(e, StudyError::UnknownModel { .. }));
     let e = known(refused(&[], &[], &["nobody.x=est.r_tc_n"]), &["nobody"]);
-    assert!(matches!(e, HarnessError::UnknownModel { .. }));
+    assert!(matches!(e, StudyError::UnknownModel { .. }));
     let e = known(
         refused(&["milton"], &["fmu-nav.milton.m_c=3"], &[]),
         &["milton.m_c", "milton.m_b"],
     );
-    assert!(matches!(e, HarnessError::Import(_)));
+    assert!(matches!(e, StudyError::Import(_)));
     let e = known(
         refused(&["milton"], &["fmu-nav.milton.m_b=three"], &[]),
         &["fmu-nav", "milton.m_b", "three"],
     );
-    assert!(matches!(e, HarnessError::Value { .. }));
+    assert!(matches!(e, StudyError::Value { .. }));
     let e = known(refused(&[], &[], &["other.y_hat=est.r_tc_n"]), &["y_hat"]);
-    assert!(matches!(e, HarnessError::Import(_)));
+    assert!(matches!(e, StudyError::Import(_)));
     for (set, option) in [
         ("fmu-truth.study_seed=3", "--seed"),
         ("fmu-truth.run=3", "--run"),
@@ -151,24 +152,24 @@ fn what_does_not_exist_or_fit_is_told() {
         ("fmu-nav.scenario=leo_venting", "--scenario"),
     ] {
         let e = known(refused(&["milton"], &[set], &[]), &[option]);
-        assert!(matches!(e, HarnessError::Reserved { .. }));
+        assert!(matches!(e, StudyError::Reserved { .. }));
     }
     let e = known(
         refused(&[], &["fmu-truth.sample_count=3"], &[]),
         &["sample_count", "output"],
     );
-    assert!(matches!(e, HarnessError::NotAParameter { .. }));
+    assert!(matches!(e, StudyError::NotAParameter { .. }));
     let e = known(
         refused(&["observer"], &[], &[]),
         &["observer", "leo_venting", "measured in full"],
     );
-    assert!(matches!(e, HarnessError::NoMeaning { .. }));
+    assert!(matches!(e, StudyError::NoMeaning { .. }));
     let e = known(refused(&["milton", "milton"], &[], &[]), &["milton", "twice"]);
-    assert!(matches!(e, HarnessError::LabelTwice { .. }));
+    assert!(matches!(e, StudyError::LabelTwice { .. }));
 }
 
 /// Resolves a study of `fixed_q`, `milton@short` and `other` with these variations.
-fn vary(sets: &[&str], variations: &[&str]) -> Result<(Participant, Vec<Participant>), HarnessError> {
+fn vary(sets: &[&str], variations: &[&str]) -> Result<(Participant, Vec<Participant>), StudyError> {
     let (models, mut truth, mut filters) = cast(&["fixed_q", "milton@short"], sets, &["other.gain=our.gain"]).unwrap();
     let sets: Vec<Assignment> = sets.iter().map(|s| s.parse().unwrap()).collect();
     let variations: Vec<Variation> = variations.iter().map(|v| v.parse().unwrap()).collect();
@@ -204,7 +205,7 @@ fn variations_miss_a_namesake() {
     let theirs: ForeignFilter = format!("fixed_q={}", theirs.display()).parse().unwrap();
     let models = Models::open(&truth, Some(&nav), &[theirs], &[]).unwrap();
     let ours = ["fixed_q@paper".parse::<FilterChoice>().unwrap()];
-    let (mut truth, mut filters) = models.cast(&SCENARIOS[0], &ours, &[]).unwrap();
+    let (mut truth, mut filters) = models.cast(&worlds::leo_venting(), &ours, &[], &[]).unwrap();
     let variations = ["fmu-nav.fixed_q.s=uniform:1:2", "fixed_q.gain=uniform:3:4"].map(|v| v.parse().unwrap());
     models.vary(&mut truth, &mut filters, &variations, &[]).unwrap();
     let varied = |p: &Participant| p.varied.iter().map(|v| v.name.clone()).collect::<Vec<_>>();
@@ -216,41 +217,28 @@ fn variations_miss_a_namesake() {
     assert!(truth.varied.is_empty());
 }
 
-/// What a file of tuned sets says is checked as what `--set` says, and told with the file and the set.
+/// What a tuned set says is checked as an assignment is, and told with the file and the set.
 #[test]
 fn tuned_sets_set_parameters_only() {
     let folder = tempfile::tempdir().unwrap();
     let truth = write_fmu(folder.path(), "truth", TRUTH);
     let nav = write_fmu(folder.path(), "nav", NAV);
-    let mut models = Models::open(&truth, Some(&nav), &[], &[]).unwrap();
-    let mut cast = |variable: &str, value| {
-        let file = TunedFile {
-            harness_version: "0".to_owned(),
-            objective: "position".to_owned(),
-            nees_limits: [0.5, 2.0],
-            search_seed: 7,
-            search_runs: 1,
-            evaluations: 1,
-            judge_seed: 1,
-            judge_runs: 1,
-            set: Vec::new(),
-            sets: vec![TunedSet {
-                file: None,
-                scenario: "leo_venting".to_owned(),
-                filter: "fixed_q".to_owned(),
-                preset: "paper".to_owned(),
-                name: "tuned".to_owned(),
-                values: BTreeMap::from([(variable.to_owned(), value)]),
-                search_objective: None,
-                search_nees: None,
-                feasible: true,
-            }],
+    let models = Models::open(&truth, Some(&nav), &[], &[]).unwrap();
+    let cast = |variable: &str, value| {
+        let set = TunedSet {
+            file: Some(folder.path().join("tuned.json")),
+            scenario: "leo_venting".to_owned(),
+            filter: "fixed_q".to_owned(),
+            preset: "paper".to_owned(),
+            name: "tuned".to_owned(),
+            values: BTreeMap::from([(variable.to_owned(), value)]),
+            search_objective: None,
+            search_nees: None,
+            feasible: true,
         };
-        let path = folder.path().join("tuned.json");
-        std::fs::write(&path, file.render().unwrap()).unwrap();
-        models.tuned = TunedFile::read(&path).unwrap().sets;
         let tuned = ["fixed_q@tuned".parse().unwrap()];
-        models.cast(&SCENARIOS[0], &tuned, &[]).map(|(_, filters)| filters)
+        let cast = models.cast(&worlds::leo_venting(), &tuned, &[set], &[]);
+        cast.map(|(_, filters)| filters)
     };
     let filters = cast("fixed_q.s", 0.25).unwrap();
     assert_eq!(value(&filters[0], "fixed_q.s"), Some(&Value::Real(0.25)));
@@ -261,7 +249,7 @@ fn tuned_sets_set_parameters_only() {
         ("fixed_q.s", -1.0, "-1"),
     ] {
         let error = cast(variable, number).unwrap_err();
-        assert!(matches!(error, HarnessError::BadTunedSet { .. }), "{error}");
+        assert!(matches!(error, StudyError::BadTunedSet { .. }), "{error}");
         let text = error.to_string();
         for part in ["tuned.json", "fixed_q@tuned", "leo_venting", variable, says] {
             assert!(text.contains(part), "'{part}' is missing in: {text}");
@@ -296,16 +284,74 @@ fn a_study_needs_a_filter_and_its_fmu() {
     let truth = write_fmu(folder.path(), "truth", TRUTH);
     let models = Models::open(&truth, None, &[], &[]).unwrap();
     assert!(matches!(
-        models.cast(&SCENARIOS[0], &[], &[]),
-        Err(HarnessError::NoFilter)
+        models.cast(&worlds::leo_venting(), &[], &[], &[]),
+        Err(StudyError::NoFilter)
     ));
     let milton = ["milton".parse::<FilterChoice>().unwrap()];
     assert!(matches!(
-        models.cast(&SCENARIOS[0], &milton, &[]),
-        Err(HarnessError::NoNav { .. })
+        models.cast(&worlds::leo_venting(), &milton, &[], &[]),
+        Err(StudyError::NoNav { .. })
     ));
     assert!(matches!(
         Models::open(Path::new("/no/such.fmu"), None, &[], &[]),
-        Err(HarnessError::Import(_))
+        Err(StudyError::Import(_))
     ));
+}
+
+/// A plan is resolved against its FMUs, and a resolved plan resolves to itself.
+#[test]
+fn a_plan_becomes_a_study() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = OwnFmus {
+        truth: Some(write_fmu(folder.path(), "truth", TRUTH)),
+        nav: Some(write_fmu(folder.path(), "nav", NAV)),
+    };
+    let plan = Plan {
+        filters: Some(vec!["milton@short".parse().unwrap()]),
+        runs: 3,
+        seed: 9,
+        duration_s: Some(100.0),
+        assignments: vec!["fmu-truth.sample_period=0.5".parse().unwrap()],
+        variations: vec!["fmu-nav.fixed_q.s=uniform:1:2".parse().unwrap()],
+        ..Plan::default()
+    };
+    let models = Models::of(&plan, &own).unwrap();
+    let world = &plan.worlds().unwrap()[0];
+    let study = models.study(&plan, world).unwrap();
+    let spec = &study.spec;
+    assert_eq!((study.runs, study.case.as_str(), spec.seed), (3, "nominal", 9));
+    assert_eq!(
+        (spec.sample_period.to_bits(), spec.step.to_bits()),
+        (0.5_f64.to_bits(), 0.5_f64.to_bits())
+    );
+    assert_eq!((spec.epochs(), spec.filters[0].varied.len()), (200, 1));
+    let resolved = plan.resolved(spec);
+    assert_eq!((resolved.step_s, resolved.duration_s), (Some(0.5), Some(100.0)));
+    let text = serde_json::to_string(&resolved).unwrap();
+    let again: Plan = serde_json::from_str(&text).unwrap();
+    let repeated = models.spec(&again, &again.worlds().unwrap()[0]).unwrap();
+    assert_eq!(again.resolved(&repeated), resolved);
+    assert_eq!(format!("{repeated:?}"), format!("{spec:?}"));
+}
+
+/// The status is an enumeration in other words and another order, or a plain Integer.
+#[test]
+fn status_is_matched_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let truth = write_fmu(folder.path(), "truth", TRUTH);
+    let named = FOREIGN.to_owned()
+        + r#"<ScalarVariable name="mode" valueReference="4" causality="output" variability="discrete"><Enumeration declaredType="Mode"/></ScalarVariable>"#;
+    let theirs = write_fmu(folder.path(), "their", &named);
+    let nav = write_fmu(folder.path(), "nav", NAV);
+    let theirs: ForeignFilter = format!("theirs={}", theirs.display()).parse().unwrap();
+    let mapping: Mapping = "theirs.mode=status".parse().unwrap();
+    let models = Models::open(&truth, Some(&nav), &[theirs], &[mapping]).unwrap();
+    let ours = ["milton".parse::<FilterChoice>().unwrap()];
+    let (_, filters) = models.cast(&worlds::leo_venting(), &ours, &[], &[]).unwrap();
+    let found = |index: usize| [1, 2, 3, 4, 5].map(|n| filters[index].statuses.status(n));
+    assert_eq!(found(0), Status::ALL.map(Some));
+    assert_eq!(
+        found(1),
+        [Some(Status::Diverged), None, Some(Status::Tracking), None, None]
+    );
 }

@@ -5,9 +5,9 @@ use std::str::FromStr;
 
 use numerics::{Source, stream};
 use rand::RngExt;
+use serde::{Deserialize, Serialize};
 
-use super::{Assignment, Models, Participant, check_real_range};
-use crate::HarnessError;
+use crate::arguments::{Assignment, as_text};
 
 /// How the values of a varied parameter are spread, low end and high end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +27,8 @@ impl Distribution {
         }
     }
 
-    fn ends(&self) -> [f64; 2] {
+    /// Low end and high end.
+    pub fn ends(&self) -> [f64; 2] {
         match *self {
             Self::Uniform(low, high) | Self::LogUniform(low, high) => [low, high],
         }
@@ -75,7 +76,8 @@ impl FromStr for Distribution {
 }
 
 /// `MODEL.VARIABLE=DISTRIBUTION:LOW:HIGH`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct Variation {
     /// `fmu-truth`, `fmu-nav` or the label of a foreign filter.
     pub model: String,
@@ -106,6 +108,8 @@ impl fmt::Display for Variation {
     }
 }
 
+as_text!(Variation);
+
 /// A start value that is drawn anew in each run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Varied {
@@ -125,53 +129,6 @@ impl Varied {
             generator.random::<f64>();
         }
         self.distribution.quantile(generator.random())
-    }
-}
-
-impl Models {
-    /// Makes parameters of the parts of a run differ from run to run; after presets and `--set`.
-    ///
-    /// * `assignments`: what `--set` sets, to refuse what is both set and varied.
-    ///
-    /// # Errors
-    /// What does not exist, is no Real parameter, cannot take an end of its range, or stands twice.
-    pub fn vary(
-        &self,
-        truth: &mut Participant,
-        filters: &mut [Participant],
-        variations: &[Variation],
-        assignments: &[Assignment],
-    ) -> Result<(), HarnessError> {
-        for (draw, variation) in variations.iter().enumerate() {
-            let Variation {
-                model: name,
-                variable,
-                distribution,
-            } = variation;
-            let model = self.require(name, &variation.to_string())?;
-            check_real_range(model, variable, distribution.ends())?;
-            let set = assignments.iter().any(|a| a.model == *name && a.variable == *variable);
-            let earlier = &variations[..draw];
-            if set || earlier.iter().any(|v| v.model == *name && v.variable == *variable) {
-                return Err(HarnessError::VariedTwice {
-                    model: name.clone(),
-                    variable: variable.clone(),
-                });
-            }
-            let varied = Varied {
-                name: model.contract_name(variable).to_owned(),
-                distribution: *distribution,
-                draw,
-            };
-            let parts = std::iter::once(&mut *truth).chain(filters.iter_mut());
-            for part in parts.filter(|p| p.model == *name) {
-                part.starts.retain(|(name, _)| *name != varied.name);
-                part.record.retain(|(name, _)| name != variable);
-                part.record.push((variable.clone(), distribution.to_string()));
-                part.varied.push(varied.clone());
-            }
-        }
-        Ok(())
     }
 }
 
