@@ -17,6 +17,15 @@ pub enum HarnessError {
     /// An FMU that cannot be used, or a name or value it does not know.
     #[error(transparent)]
     Import(Box<ImportError>),
+    /// An orbit, a field of gravity or a date that makes no sense.
+    #[error(transparent)]
+    Astro(#[from] astro::AstroError),
+    /// A file that is not overwritten.
+    #[error("{} exists already; name another, or move it away", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
     /// A range that no search can cover on a logarithmic scale.
     #[error("{model}.{variable} cannot be searched from {low} to {high}: give LOW:HIGH with 0 < LOW < HIGH")]
     SearchRange {

@@ -52,8 +52,9 @@ impl Models {
     /// What cannot be set or varied or does not exist, with the names that do.
     pub fn spec(&self, plan: &Plan, world: &World) -> Result<Spec, StudyError> {
         let choices = plan.choices(world);
-        let (mut truth, mut filters) = self.cast(world, choices, &plan.tuned, &plan.assignments)?;
-        self.vary(&mut truth, &mut filters, &plan.variations, &plan.assignments)?;
+        let assignments: Vec<Assignment> = plan.in_fmus().cloned().collect();
+        let (mut truth, mut filters) = self.cast(world, choices, &plan.tuned, &assignments)?;
+        self.vary(&mut truth, &mut filters, &plan.variations, &assignments)?;
         let suggested = self.truth.description().default_experiment.step_size;
         // A foreign truth may keep its sample period to itself; then it is taken to sample at each step.
         let sample_period = self
@@ -142,6 +143,8 @@ impl Models {
     pub fn sample_period(&self, truth: &Participant, world: &World) -> Option<f64> {
         let variable = self.truth.description().get("sample_period");
         match truth.start("sample_period").cloned().or_else(|| variable?.start())? {
+            // The mission's own, also where a sensor has a period of its own.
+            Value::Real(_) if self.truth.description().get("mission_file").is_some() => Some(world.sample_period_s),
             Value::Real(period) if period <= 0.0 => Some(world.sample_period_s),
             Value::Real(period) => Some(period),
             _ => None,

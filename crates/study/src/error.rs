@@ -20,13 +20,30 @@ pub enum StudyError {
     /// A statistic that cannot be formed.
     #[error(transparent)]
     Stats(#[from] StatsError),
-    /// A scenario of that name does not exist.
-    #[error("there is no scenario '{name}'; there are: {known}")]
-    UnknownScenario {
-        /// Name asked for.
-        name: String,
-        /// Names that exist.
-        known: String,
+    /// A flight that left the numbers.
+    #[error("the relative position is no number at {time} s")]
+    Lost {
+        /// When, s.
+        time: f64,
+    },
+    /// A mission that cannot be used.
+    #[error(transparent)]
+    Mission(#[from] interface::MissionError),
+    /// The file of a mission that cannot be placed.
+    #[error("{}: the mission cannot be written there", path.display())]
+    MissionFile {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// A mission that names a filter as none can be named.
+    #[error("mission {mission}, study.filters: {problem}")]
+    Filters {
+        /// Name of the mission.
+        mission: String,
+        /// What is wrong.
+        problem: String,
     },
     /// A scenario is named more than once; its rows and files would be the same.
     #[error("scenario '{name}' is named twice; name each once")]

@@ -1,7 +1,7 @@
 //! What is studied.
 
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use cosim::Scheme;
 use serde::{Deserialize, Serialize};
@@ -12,7 +12,7 @@ use crate::spec::Spec;
 use crate::tuned::TunedSet;
 use crate::variation::Variation;
 use crate::world::World;
-use crate::worlds;
+use crate::worlds::{From, MISSION, Source};
 
 /// A study as somebody asks for it; in a file it has the names of the command line's options.
 ///
@@ -33,9 +33,12 @@ use crate::worlds;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Plan {
-    /// Names of the worlds, a study each.
+    /// Names of missions that come with the project, a study each.
     #[serde(rename = "scenario")]
-    pub worlds: Vec<String>,
+    pub scenarios: Vec<String>,
+    /// Mission files, a study each, after those.
+    #[serde(rename = "mission")]
+    pub missions: Vec<PathBuf>,
     /// Text of the `case` column; with the world it names a study.
     pub case: String,
     /// Filters of fmu-nav, and tuned foreign ones; `None` for those of each world.
@@ -75,7 +78,8 @@ pub struct Plan {
 impl Default for Plan {
     fn default() -> Self {
         Self {
-            worlds: vec!["leo_venting".to_owned()],
+            scenarios: vec!["leo_venting".to_owned()],
+            missions: Vec::new(),
             case: "nominal".to_owned(),
             filters: None,
             runs: 100,
@@ -118,17 +122,32 @@ impl Plan {
 
     /// The worlds, in the order of the plan.
     ///
+    /// * `folder`: where the file of a mission goes that the plan changes.
+    ///
     /// # Errors
-    /// [`StudyError::UnknownScenario`], [`StudyError::ScenarioTwice`].
-    pub fn worlds(&self) -> Result<Vec<World>, StudyError> {
-        let mut found: Vec<World> = Vec::with_capacity(self.worlds.len());
-        for name in &self.worlds {
-            if found.iter().any(|w| w.name == *name) {
-                return Err(StudyError::ScenarioTwice { name: name.clone() });
+    /// [`StudyError::Mission`], [`StudyError::MissionFile`], [`StudyError::ScenarioTwice`].
+    pub fn worlds(&self, folder: &Path) -> Result<Vec<World>, StudyError> {
+        let named = self.scenarios.iter().map(|name| From::Name(name));
+        let files = self.missions.iter().map(|path| From::File(path));
+        let mut found: Vec<World> = Vec::new();
+        for from in named.chain(files) {
+            let source = Source {
+                from,
+                assignments: &self.assignments,
+                folder,
+            };
+            let world = source.world()?;
+            if found.iter().any(|w| w.name == world.name) {
+                return Err(StudyError::ScenarioTwice { name: world.name });
             }
-            found.push(worlds::find(name)?);
+            found.push(world);
         }
         Ok(found)
+    }
+
+    /// What is set in the FMUs: all but the mission's own keys.
+    pub fn in_fmus(&self) -> impl Iterator<Item = &Assignment> {
+        self.assignments.iter().filter(|a| a.model != MISSION)
     }
 
     /// Filters that are chosen by name in a world; the foreign ones follow them.
@@ -152,6 +171,7 @@ impl Plan {
 
     /// The plan of one of its studies alone, with nothing left to a default: what it takes to run that study again.
     pub fn resolved(&self, spec: &Spec) -> Self {
+        let named = spec.world.mission_file.is_none();
         let foreign = |label: &str| self.foreign.iter().any(|f| f.label == label);
         let labels = spec
             .filters
@@ -159,7 +179,14 @@ impl Plan {
             .map(|p| p.label.as_str())
             .filter(|label| !foreign(label));
         Self {
-            worlds: vec![spec.world.name.clone()],
+            scenarios: if named {
+                vec![spec.world.name.clone()]
+            } else {
+                Vec::new()
+            },
+            missions: spec.world.mission_file.clone().into_iter().collect(),
+            // What the file of a changed mission holds is not set again.
+            assignments: self.in_fmus().cloned().collect(),
             filters: Some(labels.filter_map(|label| label.parse().ok()).collect()),
             jobs: None,
             duration_s: Some(spec.world.duration_s),
@@ -230,7 +257,8 @@ mod tests {
     fn an_empty_plan_is_the_default_and_every_plan_is_read_back() {
         assert_eq!(read("{}").unwrap(), Plan::default());
         let plan = Plan {
-            worlds: vec!["formation".to_owned()],
+            scenarios: vec!["formation".to_owned()],
+            missions: vec!["a.toml".into()],
             case: "odd".to_owned(),
             filters: Some(vec!["snc".parse().unwrap(), "milton@consistent".parse().unwrap()]),
             runs: 7,
@@ -283,7 +311,10 @@ mod tests {
             assert!(error.contains(says), "{text}: {error}");
         }
         let plan = read("{\"scenario\": [\"formation\", \"formation\"]}").unwrap();
-        assert!(matches!(plan.worlds(), Err(StudyError::ScenarioTwice { .. })));
+        assert!(matches!(
+            plan.worlds(Path::new("none")),
+            Err(StudyError::ScenarioTwice { .. })
+        ));
     }
 
     #[test]

@@ -102,7 +102,7 @@ fn couple(spec: &Spec, run: u32) -> Result<Coupled, StudyError> {
 }
 
 /// Adds a slave with its start values; a foreign one need not know of seeds and runs.
-fn seat(system: &mut System, participant: &Participant, seed: i32, run: u32) -> Result<SlaveId, StudyError> {
+pub fn seat(system: &mut System, participant: &Participant, seed: i32, run: u32) -> Result<SlaveId, StudyError> {
     let id = system.add(participant.source.create(&participant.label)?)?;
     for (own, contract) in &participant.aliases {
         system.alias(id, own, contract)?;

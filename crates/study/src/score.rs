@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn a_case_worked_by_hand() {
-        let s = score(&worlds::leo_venting(), &truth(), &estimate()).unwrap();
+        let s = score(&worlds::find("leo_venting").unwrap(), &truth(), &estimate()).unwrap();
         assert_eq!(s.epoch, 6);
         assert_eq!(s.error(Quantity::Position), Some(Vector3::new(-3.0, 2.0, 1.0)));
         assert_eq!(s.variance(Quantity::Position), Some(Vector3::new(3.0, 2.0, 1.0)));
@@ -158,7 +158,9 @@ mod tests {
                 nis_rows: rows,
                 ..estimate()
             };
-            score(&worlds::leo_venting(), &truth(), &e).unwrap().nis()
+            score(&worlds::find("leo_venting").unwrap(), &truth(), &e)
+                .unwrap()
+                .nis()
         };
         assert_eq!([None, Some(2), Some(0)].map(nis), [Some(2.0), Some(3.0), None]);
     }
@@ -174,8 +176,8 @@ mod tests {
             ..truth()
         };
         for s in [
-            score(&worlds::leo_venting(), &truth(), &coasting),
-            score(&worlds::leo_venting(), &dropped, &estimate()),
+            score(&worlds::find("leo_venting").unwrap(), &truth(), &coasting),
+            score(&worlds::find("leo_venting").unwrap(), &dropped, &estimate()),
         ] {
             let s = s.unwrap();
             assert_eq!(
@@ -193,7 +195,7 @@ mod tests {
             acceleration: None,
             ..estimate()
         };
-        let s = score(&worlds::leo_venting(), &truth(), &six).unwrap();
+        let s = score(&worlds::find("leo_venting").unwrap(), &truth(), &six).unwrap();
         assert_eq!(
             (s.error(Quantity::Acceleration), s.variance(Quantity::Acceleration)),
             (None, None)
@@ -204,7 +206,7 @@ mod tests {
             dimension: 6,
             ..estimate()
         };
-        let s = score(&worlds::leo_venting(), &truth(), &network).unwrap();
+        let s = score(&worlds::find("leo_venting").unwrap(), &truth(), &network).unwrap();
         assert_eq!(
             (s.error(Quantity::Acceleration), s.variance(Quantity::Acceleration)),
             (Some(Vector3::zeros()), None)
@@ -217,7 +219,7 @@ mod tests {
             residual_variance: [None; 2],
             ..estimate()
         };
-        let s = score(&worlds::leo_venting(), &truth(), &none).unwrap();
+        let s = score(&worlds::find("leo_venting").unwrap(), &truth(), &none).unwrap();
         assert_eq!(Quantity::ALL.map(|q| s.variance(q)), [None; QUANTITIES]);
         assert_eq!((s.nees(), s.nis(), s.covariance_broken), (None, None, false));
         let observer = Estimate {
@@ -225,7 +227,7 @@ mod tests {
             covariance: None,
             ..estimate()
         };
-        let s = score(&worlds::leo_venting(), &truth(), &observer).unwrap();
+        let s = score(&worlds::find("leo_venting").unwrap(), &truth(), &observer).unwrap();
         assert_eq!((s.nis(), s.variance(Quantity::Residual)), (None, None));
         assert_eq!(s.error(Quantity::Residual), Some(Vector3::repeat(0.5)));
     }
@@ -235,7 +237,7 @@ mod tests {
         for value in [-1.0, f64::NAN] {
             let mut broken = estimate();
             broken.covariance.as_mut().unwrap()[(8, 8)] = value;
-            let s = score(&worlds::leo_venting(), &truth(), &broken).unwrap();
+            let s = score(&worlds::find("leo_venting").unwrap(), &truth(), &broken).unwrap();
             assert!(s.covariance_broken && s.nees().is_none() && s.nees6().is_none());
         }
     }
@@ -246,7 +248,7 @@ mod tests {
             let mut e = estimate();
             e.position = truth().position + Vector3::new(metres, 0.0, 0.0);
             e.covariance = covariance.then(|| SMatrix::identity() * (sigma * sigma / 3.0));
-            score(&worlds::leo_venting(), &truth(), &e).unwrap().lost
+            score(&worlds::find("leo_venting").unwrap(), &truth(), &e).unwrap().lost
         };
         assert!(!off(99.0, 1.0, true));
         assert!(off(101.0, 1.0, true));
@@ -256,6 +258,13 @@ mod tests {
 
     #[test]
     fn undefined_axes_give_no_score() {
-        assert!(score(&worlds::leo_venting(), &TruthSample::default(), &estimate()).is_none());
+        assert!(
+            score(
+                &worlds::find("leo_venting").unwrap(),
+                &TruthSample::default(),
+                &estimate()
+            )
+            .is_none()
+        );
     }
 }

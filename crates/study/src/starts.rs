@@ -38,10 +38,13 @@ impl<'a> StartValues<'a> {
         Ok(())
     }
 
-    /// A foreign FMU without the parameter knows one world only.
+    /// A foreign FMU without the parameters knows one world only.
     pub(crate) fn world(mut self, world: &World) -> Result<Self, StudyError> {
-        if self.model.description().get("scenario").is_some() {
-            self.set("scenario", &world.name)?;
+        let has = |name| self.model.description().get(name).is_some();
+        match &world.mission_file {
+            Some(path) if has("mission_file") => self.set("mission_file", &path.display().to_string())?,
+            None if has("scenario") => self.set("scenario", &world.name)?,
+            _ => {}
         }
         Ok(self)
     }

@@ -1,5 +1,8 @@
 //! A world, as a study sees it: how long it lasts, which variables are compared, in which axes, and by which filters.
 
+use std::path::PathBuf;
+
+use interface::Mission;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::arguments::FilterChoice;
@@ -8,7 +11,7 @@ use crate::samples::TruthSample;
 /// One world.
 #[derive(Debug, Clone, PartialEq)]
 pub struct World {
-    /// Name: the item of the FMUs' `scenario` enumeration.
+    /// Name of its mission.
     pub name: String,
     /// What happens in it, in one sentence.
     pub about: String,
@@ -29,6 +32,12 @@ pub struct World {
     pub nis_rows: u32,
     /// Filters of fmu-nav that are compared unless others are asked for.
     pub filters: Vec<FilterChoice>,
+    /// What a user should know of it.
+    pub notes: Vec<String>,
+    /// File that the FMUs read it from; `None` where they know it by its name.
+    pub mission_file: Option<PathBuf>,
+    /// The mission.
+    pub mission: Mission,
 }
 
 /// Axes of the relative state.

@@ -69,7 +69,7 @@ fn cast(filters: &[&str], sets: &[&str], maps: &[&str]) -> Result<(Models, Parti
     let choices: Vec<FilterChoice> = filters.iter().map(|f| f.parse().unwrap()).collect();
     let sets: Vec<Assignment> = sets.iter().map(|s| s.parse().unwrap()).collect();
     let models = Models::open(&truth, Some(&nav), &[other], &maps)?;
-    let (truth, filters) = models.cast(&worlds::leo_venting(), &choices, &[], &sets)?;
+    let (truth, filters) = models.cast(&worlds::find("leo_venting").unwrap(), &choices, &[], &sets)?;
     Ok((models, truth, filters))
 }
 
@@ -96,7 +96,7 @@ fn presets_come_before_what_the_user_sets() {
     // A foreign filter that knows one world only is not told which.
     assert_eq!(value(&filters[2], "scenario"), None);
     assert!(short.record.contains(&("filter".to_owned(), "milton".to_owned())));
-    let world = worlds::leo_venting();
+    let world = worlds::find("leo_venting").unwrap();
     assert_eq!(models.sample_period(&truth, &world), Some(0.5));
     let (models, truth, _) = cast(&[], &[], &[]).unwrap();
     assert_eq!(models.sample_period(&truth, &world), Some(2.0));
@@ -205,7 +205,9 @@ fn variations_miss_a_namesake() {
     let theirs: ForeignFilter = format!("fixed_q={}", theirs.display()).parse().unwrap();
     let models = Models::open(&truth, Some(&nav), &[theirs], &[]).unwrap();
     let ours = ["fixed_q@paper".parse::<FilterChoice>().unwrap()];
-    let (mut truth, mut filters) = models.cast(&worlds::leo_venting(), &ours, &[], &[]).unwrap();
+    let (mut truth, mut filters) = models
+        .cast(&worlds::find("leo_venting").unwrap(), &ours, &[], &[])
+        .unwrap();
     let variations = ["fmu-nav.fixed_q.s=uniform:1:2", "fixed_q.gain=uniform:3:4"].map(|v| v.parse().unwrap());
     models.vary(&mut truth, &mut filters, &variations, &[]).unwrap();
     let varied = |p: &Participant| p.varied.iter().map(|v| v.name.clone()).collect::<Vec<_>>();
@@ -237,7 +239,7 @@ fn tuned_sets_set_parameters_only() {
             feasible: true,
         };
         let tuned = ["fixed_q@tuned".parse().unwrap()];
-        let cast = models.cast(&worlds::leo_venting(), &tuned, &[set], &[]);
+        let cast = models.cast(&worlds::find("leo_venting").unwrap(), &tuned, &[set], &[]);
         cast.map(|(_, filters)| filters)
     };
     let filters = cast("fixed_q.s", 0.25).unwrap();
@@ -284,12 +286,12 @@ fn a_study_needs_a_filter_and_its_fmu() {
     let truth = write_fmu(folder.path(), "truth", TRUTH);
     let models = Models::open(&truth, None, &[], &[]).unwrap();
     assert!(matches!(
-        models.cast(&worlds::leo_venting(), &[], &[], &[]),
+        models.cast(&worlds::find("leo_venting").unwrap(), &[], &[], &[]),
         Err(StudyError::NoFilter)
     ));
     let milton = ["milton".parse::<FilterChoice>().unwrap()];
     assert!(matches!(
-        models.cast(&worlds::leo_venting(), &milton, &[], &[]),
+        models.cast(&worlds::find("leo_venting").unwrap(), &milton, &[], &[]),
         Err(StudyError::NoNav { .. })
     ));
     assert!(matches!(
@@ -316,7 +318,7 @@ fn a_plan_becomes_a_study() {
         ..Plan::default()
     };
     let models = Models::of(&plan, &own).unwrap();
-    let world = &plan.worlds().unwrap()[0];
+    let world = &plan.worlds(std::path::Path::new("unused")).unwrap()[0];
     let study = models.study(&plan, world).unwrap();
     let spec = &study.spec;
     assert_eq!((study.runs, study.case.as_str(), spec.seed), (3, "nominal", 9));
@@ -329,7 +331,9 @@ fn a_plan_becomes_a_study() {
     assert_eq!((resolved.step_s, resolved.duration_s), (Some(0.5), Some(100.0)));
     let text = serde_json::to_string(&resolved).unwrap();
     let again: Plan = serde_json::from_str(&text).unwrap();
-    let repeated = models.spec(&again, &again.worlds().unwrap()[0]).unwrap();
+    let repeated = models
+        .spec(&again, &again.worlds(std::path::Path::new("unused")).unwrap()[0])
+        .unwrap();
     assert_eq!(again.resolved(&repeated), resolved);
     assert_eq!(format!("{repeated:?}"), format!("{spec:?}"));
 }
@@ -347,7 +351,9 @@ fn status_is_matched_by_name() {
     let mapping: Mapping = "theirs.mode=status".parse().unwrap();
     let models = Models::open(&truth, Some(&nav), &[theirs], &[mapping]).unwrap();
     let ours = ["milton".parse::<FilterChoice>().unwrap()];
-    let (_, filters) = models.cast(&worlds::leo_venting(), &ours, &[], &[]).unwrap();
+    let (_, filters) = models
+        .cast(&worlds::find("leo_venting").unwrap(), &ours, &[], &[])
+        .unwrap();
     let found = |index: usize| [1, 2, 3, 4, 5].map(|n| filters[index].statuses.status(n));
     assert_eq!(found(0), Status::ALL.map(Some));
     assert_eq!(

@@ -18,11 +18,14 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
         case: args.case.clone(),
         ..plan_of(&args.study, &args.worlds, &args.work)?
     };
-    let worlds = plan.worlds()?;
     let folder = OutputFolder::prepare(&args.out)?;
+    let worlds = plan.worlds(folder.path())?;
     let models = models(&plan, &args.study.build)?;
     let mut studies: Vec<Study> = Vec::new();
     for world in &worlds {
+        for text in &world.notes {
+            note(&format!("note: {}: {text}", world.name));
+        }
         let study = models.study(&plan, world)?;
         for open in rehearse(&study.spec)? {
             note(&format!("note: nothing feeds {open}; it keeps its start value"));

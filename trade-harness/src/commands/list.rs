@@ -19,7 +19,7 @@ pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Verdict, Harn
         .iter()
         .map(fmi2_import::Fmu::open)
         .collect::<Result<Vec<_>, _>>()?;
-    say(out, &scenarios())?;
+    say(out, &scenarios()?)?;
     if let [truth, nav] = fmus.as_slice() {
         let filters = nav.description().items("filter");
         let told = filters_of(nav.description())?;
@@ -47,9 +47,9 @@ pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Verdict, Harn
     Ok(Verdict::Done)
 }
 
-fn scenarios() -> String {
+fn scenarios() -> Result<String, HarnessError> {
     let mut text = "Scenarios\n".to_owned();
-    for s in worlds::all() {
+    for s in worlds::all()? {
         text.push_str(&format!("  {}: {}\n", s.name, s.about));
         text.push_str(&format!(
             "    {} s, scored from {} s; {}\n",
@@ -66,7 +66,7 @@ fn scenarios() -> String {
             }
         }
     }
-    text
+    Ok(text)
 }
 
 fn describe_filter(nav: &ModelDescription, told: &Filters, item: &EnumerationItem) -> String {

@@ -5,6 +5,7 @@ mod compare;
 mod files;
 mod inspect;
 mod list;
+mod mission;
 mod pack;
 mod progress;
 mod replay;
@@ -32,6 +33,7 @@ pub fn execute(cli: Cli) -> ExitCode {
         Command::Replay(args) => replay::replay(&args, &mut out),
         Command::Reproduce(args) => reproduce::reproduce(&args, &mut out),
         Command::Inspect(args) => inspect::inspect(&args, &mut out),
+        Command::Mission(command) => mission::mission(&command, &mut out),
         Command::Columns => columns::columns(&mut out),
     };
     match result {

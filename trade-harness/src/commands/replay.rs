@@ -4,21 +4,31 @@ use std::io::Write;
 
 use nalgebra::Vector3;
 
-use study::{Estimate, Plan, Quantity, Record, TruthSample, World, rehearse, run_once, score, worlds};
+use study::{Estimate, Plan, Quantity, Record, StudyError, TruthSample, World, rehearse, run_once, score};
 
-use super::shared::{Verdict, models, note, plan, say};
+use super::shared::{Verdict, models, note, plan, say, scratch};
 use crate::HarnessError;
 use crate::cli::ReplayArgs;
 use crate::format::{cell, finished};
 use crate::output::{prepare_file, write_whole};
 
 pub(super) fn replay(args: &ReplayArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
-    let world = worlds::find(&args.scenario)?;
     prepare_file(&args.out)?;
     let plan = Plan {
-        worlds: vec![world.name.clone()],
+        scenarios: if args.mission.is_none() {
+            vec![args.scenario.clone()]
+        } else {
+            Vec::new()
+        },
+        missions: args.mission.clone().into_iter().collect(),
         ..plan(&args.study)?
     };
+    let folder = scratch()?;
+    let world = plan
+        .worlds(folder.path())?
+        .into_iter()
+        .next()
+        .ok_or(StudyError::NoWorld)?;
     let spec = models(&plan, &args.study.build)?.spec(&plan, &world)?;
     rehearse(&spec)?;
     let mut lines: Vec<Vec<Vec<String>>> = spec.filters.iter().map(|_| Vec::new()).collect();

@@ -119,7 +119,8 @@ impl<'a> Bench<'a> {
 
     fn set_up(&self, request: &Request) -> Result<Study, HarnessError> {
         let plan = self.plan(request);
-        let worlds = plan.worlds()?;
+        // No chapter changes a mission, so nothing is written.
+        let worlds = plan.worlds(&self.args.out)?;
         let world = worlds.first().ok_or(StudyError::NoWorld)?;
         Ok(self.models.study(&plan, world)?)
     }

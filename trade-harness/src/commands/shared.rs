@@ -61,6 +61,17 @@ pub(super) fn own_fmus(args: &BuildArgs, needed: &[&str]) -> Result<Vec<PathBuf>
     needed.iter().map(existing).collect()
 }
 
+/// A folder for files that no one keeps.
+///
+/// # Errors
+/// When the system has no room for one.
+pub(super) fn scratch() -> Result<tempfile::TempDir, HarnessError> {
+    tempfile::tempdir().map_err(|source| HarnessError::Write {
+        path: std::env::temp_dir(),
+        source,
+    })
+}
+
 /// The plan of a command line, of which worlds, runs and case are the command's own.
 ///
 /// # Errors
@@ -92,7 +103,8 @@ pub(super) fn plan(study: &StudyArgs) -> Result<Plan, HarnessError> {
 /// As for [`plan`].
 pub(super) fn plan_of(study: &StudyArgs, worlds: &WorldArgs, work: &WorkArgs) -> Result<Plan, HarnessError> {
     Ok(Plan {
-        worlds: worlds.scenarios.clone(),
+        scenarios: worlds.named(),
+        missions: worlds.missions.clone(),
         runs: work.runs,
         jobs: work.jobs,
         ..plan(study)?

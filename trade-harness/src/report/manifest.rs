@@ -63,6 +63,10 @@ pub struct StudyFacts {
     filters: Vec<FilterFacts>,
     /// What it takes to run this study again.
     plan: Plan,
+    /// The mission, every key of it.
+    mission: interface::Mission,
+    /// What a reader should know of it.
+    notes: Vec<String>,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -98,6 +102,8 @@ impl StudyFacts {
                 })
                 .collect(),
             plan: plan.resolved(spec),
+            mission: spec.world.mission.clone(),
+            notes: spec.world.notes.clone(),
         }
     }
 }

@@ -87,7 +87,7 @@ mod tests {
     #[test]
     fn no_claim_of_the_paper_is_left_out() {
         let has_claims = |world: &String| claims::of(world).iter().any(|c| c.filter == FILTER);
-        let names = worlds::all().into_iter().map(|w| w.name);
+        let names = worlds::all().unwrap().into_iter().map(|w| w.name);
         let with_claims: Vec<String> = names.filter(has_claims).collect();
         let run: Vec<String> = requests().iter().map(|r| r.world().to_owned()).collect();
         assert_eq!(run, with_claims);

@@ -23,7 +23,7 @@ impl Request {
     pub(crate) fn new(world: &str, case: &str, filters: &[&str]) -> Self {
         Self {
             plan: Plan {
-                worlds: vec![world.to_owned()],
+                scenarios: vec![world.to_owned()],
                 case: case.to_owned(),
                 filters: Some(filters.iter().filter_map(|label| label.parse().ok()).collect()),
                 ..Plan::default()
@@ -34,7 +34,7 @@ impl Request {
 
     /// Name of the world.
     pub fn world(&self) -> &str {
-        self.plan.worlds.first().map_or("", String::as_str)
+        self.plan.scenarios.first().map_or("", String::as_str)
     }
 
     /// Text of the `case` column; with the world it names the study.

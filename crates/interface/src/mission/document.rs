@@ -101,6 +101,27 @@ impl Document {
         Ok(())
     }
 
+    /// Makes every path in the text absolute, so that the text may stand in another folder.
+    ///
+    /// # Errors
+    /// As for [`Document::set`].
+    pub fn make_paths_absolute(&mut self) -> Result<(), MissionError> {
+        for key in ["environment.gravity.file", "navigation.gravity.file"] {
+            let path = self
+                .spanned()?
+                .as_table()
+                .get(key.split('.').next().unwrap_or_default())
+                .and_then(|section| section.get("gravity"))
+                .and_then(|gravity| gravity.get("file"))
+                .and_then(Item::as_str)
+                .map(|path| self.folder.join(path));
+            if let Some(path) = path {
+                self.set(key, &Value::from(path.display().to_string()).to_string())?;
+            }
+        }
+        Ok(())
+    }
+
     /// The mission that the text states.
     ///
     /// # Errors

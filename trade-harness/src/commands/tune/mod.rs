@@ -20,9 +20,9 @@ use results::Done;
 
 pub(super) fn tune(args: &TuneArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
     let plan = plan_of(&args.study, &args.worlds, &args.work)?;
-    let worlds = plan.worlds()?;
     let options = options(args, &plan)?;
     let folder = OutputFolder::prepare(&args.out)?;
+    let worlds = plan.worlds(folder.path())?;
     let models = models(&plan, &args.study.build)?;
     check_ranges(&args.ranges, &plan, &models)?;
     let contests = worlds
