@@ -48,7 +48,7 @@ pub(super) fn closing(folder: &OutputFolder, files: &[String], out: &mut dyn Wri
 pub(super) fn own_fmus(args: &BuildArgs, needed: &[&str]) -> Result<Vec<PathBuf>, HarnessError> {
     let folder = args.fmu_dir.clone().unwrap_or_else(|| default_folder(&args.workspace));
     if !args.no_build && !needed.is_empty() {
-        crate::pack::pack(&args.workspace, &folder, args.quiet)?;
+        crate::pack::pack(&args.workspace, &folder, None, args.quiet)?;
     }
     let existing = |name: &&str| {
         let path = fmu_path(&folder, name);

@@ -19,6 +19,8 @@ pub fn world() -> World {
         axes: Axes::Rtn,
         nis_rows: 3,
         filters: Vec::new(),
+        // What a mission says of it beyond this is nobody's business here.
+        ..study::worlds::find("leo_venting").unwrap()
     }
 }
 

@@ -106,20 +106,27 @@ impl Document {
     /// # Errors
     /// As for [`Document::set`].
     pub fn make_paths_absolute(&mut self) -> Result<(), MissionError> {
-        for key in ["environment.gravity.file", "navigation.gravity.file"] {
-            let path = self
-                .spanned()?
-                .as_table()
-                .get(key.split('.').next().unwrap_or_default())
-                .and_then(|section| section.get("gravity"))
-                .and_then(|gravity| gravity.get("file"))
-                .and_then(Item::as_str)
-                .map(|path| self.folder.join(path));
-            if let Some(path) = path {
-                self.set(key, &Value::from(path.display().to_string()).to_string())?;
-            }
+        for (key, path) in self.files()? {
+            self.set(key, &Value::from(path.display().to_string()).to_string())?;
         }
         Ok(())
+    }
+
+    /// Files that the text names: the key of each, and its path from here.
+    ///
+    /// # Errors
+    /// When the text is no TOML.
+    pub fn files(&self) -> Result<Vec<(&'static str, PathBuf)>, MissionError> {
+        let spanned = self.spanned()?;
+        let file = |section: &str| {
+            let gravity = spanned.as_table().get(section)?.get("gravity")?;
+            Some(self.folder.join(gravity.get("file")?.as_str()?))
+        };
+        let keys = [
+            ("environment.gravity.file", file("environment")),
+            ("navigation.gravity.file", file("navigation")),
+        ];
+        Ok(keys.into_iter().filter_map(|(key, path)| Some((key, path?))).collect())
     }
 
     /// The mission that the text states.

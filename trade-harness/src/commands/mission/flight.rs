@@ -107,7 +107,7 @@ pub(super) fn fly(models: &Models, plan: &Plan, world: &World, run: u32) -> Resu
     };
     let mut flight = Flight::default();
     let mut last = 0;
-    system
+    let report = system
         .run(&options, |context: &mut StepContext<'_>| {
             let t = context.time();
             if context.read(&mut sample).is_err() {
@@ -136,6 +136,9 @@ pub(super) fn fly(models: &Models, plan: &Plan, world: &World, run: u32) -> Resu
             ControlFlow::Continue(())
         })
         .map_err(failed)?;
+    if let Some(refused) = report.isolated.into_iter().next() {
+        return Err(failed(refused.error));
+    }
     if let Some(lost) = flight.points.iter().find(|p| !p.r_tc.norm().is_finite()) {
         return Err(StudyError::Lost { time: lost.t }.into());
     }
