@@ -5,6 +5,7 @@
 //! filter sees nothing else of the file.
 
 mod check;
+mod choice;
 mod document;
 mod embedded;
 mod environment;
@@ -23,6 +24,7 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use choice::{Choice, PACKED, SHIPPED, guid_with, packed_guid};
 pub use document::Document;
 pub use embedded::{EMBEDDED, Embedded, embedded};
 pub use environment::{
