@@ -1,8 +1,9 @@
 //! The navigation filters of `crates/filters` as an FMI 2.0 co-simulation slave.
 //!
-//! `variables.rs` is the table of everything a master can see, `model.rs` the adapter between that table and a
+//! `variables.rs` is the table of everything a master can see (`beliefs.rs` the part of it that all filters share), `model.rs` the adapter between that table and a
 //! [`filters::Navigator`]. Behaviour belongs in `filters`, the C interface in `fmi2-export`; here stands neither.
 
+mod beliefs;
 mod model;
 mod variables;
 

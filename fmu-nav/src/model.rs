@@ -5,45 +5,26 @@ use astro::TargetOrbit;
 use filters::laws::FILTERS;
 use filters::scenarios::{Measures, SCENARIOS};
 use filters::state::State;
-use filters::{Navigator, Sample, Settings, Status};
+use filters::{FilterError, Navigator, Sample, Settings};
 use fmi2_export::{Experiment, Log, Model, ModelError, ModelInfo, Table, VendorAnnotation};
 use interface::annotation::{self, Filters, Only, Preset, Search, Set};
+use interface::mission::{Embedded, Mission};
+use interface::{Signals, Status};
 use nalgebra::{Matrix3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
 
-/// The inputs as set; they take effect in a step only.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Inputs {
-    /// `sample_time`, s.
-    pub sample_time: f64,
-    /// `sample_count`.
-    pub sample_count: i32,
-    /// `lidar.valid`.
-    pub lidar_valid: bool,
-    /// `lidar.range` (m), `lidar.azimuth` and `lidar.elevation` (rad).
-    pub lidar: Vector3<f64>,
-    /// `metrology.valid`.
-    pub metrology_valid: bool,
-    /// `metrology.rho_lvlh` (m), then `metrology.rho_dot_lvlh` (m/s).
-    pub metrology: Vector6<f64>,
-    /// `target_orbit.*`; without a node, which relative motion does not depend on.
-    pub target_orbit: TargetOrbit,
-    /// `accelerometer.alpha_c_bc`, m/s2.
-    pub alpha_c_bc: Vector3<f64>,
-    /// `dcm_bc_n`.
-    pub dcm_bc_n: Matrix3<f64>,
-    /// `nav_init.x`, SI.
-    pub nav_init: State,
-}
-
 /// One slave.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct NavModel {
-    /// Parameters.
+    /// Which of the missions that come with the FMU, from 1.
+    pub scenario: i32,
+    /// Path of a mission file, which goes before the scenario; empty: none.
+    pub mission_file: String,
+    /// The other parameters.
     pub settings: Settings,
-    /// Inputs.
-    pub inputs: Inputs,
+    /// Inputs as set; they take effect in a step only.
+    pub inputs: Signals,
     /// The filter, from initialization on.
     pub navigator: Option<Navigator>,
 }
@@ -52,6 +33,47 @@ impl NavModel {
     /// A value of the running filter, or the default of its type before initialization.
     pub fn read<T: Default>(&self, value: impl Fn(&Navigator) -> T) -> T {
         self.navigator.as_ref().map(value).unwrap_or_default()
+    }
+
+    /// What the filter is doing.
+    pub fn status(&self) -> Status {
+        self.navigator.as_ref().map_or(Status::Initialising, Navigator::status)
+    }
+
+    /// The mission that the file or the scenario names.
+    fn mission(&self) -> Result<Mission, ModelError> {
+        if !self.mission_file.is_empty() {
+            return Ok(Mission::read(self.mission_file.as_ref())?);
+        }
+        let place = usize::try_from(i64::from(self.scenario) - 1).ok();
+        let entry = place.and_then(|place| Embedded::scenarios().nth(place));
+        let entry = entry.ok_or_else(|| FilterError::UnknownScenario {
+            name: format!("number {}", self.scenario),
+            known: Embedded::scenarios().map(|e| e.name).collect::<Vec<_>>().join(", "),
+        })?;
+        Ok(entry.mission()?)
+    }
+}
+
+/// The newest sample as a filter takes it; what was due and not received is absent.
+fn sample(signals: &Signals) -> Sample {
+    let [r, r_dot, h, inclination, argument_of_latitude] = signals.target_orbit;
+    Sample {
+        count: signals.sample_count,
+        time: signals.sample_time,
+        lidar: signals.lidar.valid.then(|| Vector3::from(signals.lidar_z)),
+        metrology: signals.metrology.valid.then(|| Vector6::from(signals.metrology_z)),
+        target_orbit: TargetOrbit {
+            r,
+            r_dot,
+            h,
+            inclination,
+            argument_of_latitude,
+            // Not handed over; relative motion does not depend on it.
+            node: 0.0,
+        },
+        alpha_c_bc: signals.alpha_c_bc.into(),
+        dcm_bc_n: Matrix3::from_row_slice(&signals.dcm_bc_n),
     }
 }
 
@@ -64,7 +86,10 @@ impl Model for NavModel {
             description: "Relative navigation filters of a chaser that does not know everything that acts on it and its target",
             version: env!("CARGO_PKG_VERSION"),
             license: "MIT",
-            default_stop: SCENARIOS.first().map_or(1.0, |s| s.duration),
+            default_stop: Embedded::scenarios()
+                .next()
+                .and_then(|entry| entry.mission().ok())
+                .map_or(1.0, |mission| mission.time.duration_s),
             default_step: 1.0,
             vendor_annotations: vec![VendorAnnotation::of(annotation::TOOL, &annotated())],
             ..ModelInfo::default()
@@ -78,29 +103,26 @@ impl Model for NavModel {
 
     fn blank() -> Self {
         Self {
+            scenario: 1,
+            mission_file: String::new(),
             settings: Settings::default(),
-            inputs: Inputs {
-                sample_time: 0.0,
-                sample_count: 0,
-                lidar_valid: false,
-                lidar: Vector3::zeros(),
-                metrology_valid: false,
-                metrology: Vector6::zeros(),
-                target_orbit: TargetOrbit::from_vector(&Vector6::zeros()),
-                alpha_c_bc: Vector3::zeros(),
-                dcm_bc_n: Matrix3::identity(),
-                nav_init: State::zeros(),
-            },
+            inputs: Signals::default(),
             navigator: None,
         }
     }
 
     fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError> {
+        let navigation = self.mission()?.navigation();
+        let scenario = SCENARIOS.iter().position(|s| s.name == navigation.mission);
+        self.settings.scenario = scenario.ok_or_else(|| FilterError::UnknownScenario {
+            name: navigation.mission.clone(),
+            known: SCENARIOS.iter().map(|s| s.name).collect::<Vec<_>>().join(", "),
+        })?;
         self.navigator = Some(Navigator::new(&self.settings, experiment.start_time)?);
         log.event(format_args!(
-            "filter {} in scenario {} starts at t = {} s",
+            "filter {} in mission {} starts at t = {} s",
             self.settings.filter()?.name,
-            self.settings.scenario()?.name,
+            navigation.mission,
             experiment.start_time
         ));
         Ok(())
@@ -115,39 +137,23 @@ impl Model for NavModel {
         if inputs.sample_count <= navigator.estimate().count {
             return Ok(());
         }
-        let sample = Sample {
-            count: inputs.sample_count,
-            time: inputs.sample_time,
-            lidar: inputs.lidar_valid.then_some(inputs.lidar),
-            metrology: inputs.metrology_valid.then_some(inputs.metrology),
-            target_orbit: inputs.target_orbit,
-            alpha_c_bc: inputs.alpha_c_bc,
-            dcm_bc_n: inputs.dcm_bc_n,
-        };
-        navigator.process(&sample, &inputs.nav_init)?;
+        navigator.process(&sample(inputs), &State::from(inputs.nav_init))?;
         let now = navigator.status();
         if now != before {
-            log.event(format_args!("at t = {} s: {}", sample.time, status_name(now)));
+            log.event(format_args!("at t = {} s: {}", inputs.sample_time, now.name()));
             let other = match navigator.measures() {
-                Measures::RangeAndBearing => inputs.metrology_valid,
-                Measures::RelativeState => inputs.lidar_valid,
+                Measures::RangeAndBearing => inputs.metrology.valid,
+                Measures::RelativeState => inputs.lidar.valid,
             };
             if now == Status::Coasting && other {
                 log.event(format_args!(
-                    "the sample holds a measurement that scenario {} does not use: is the world in the same scenario?",
+                    "the sample holds a measurement that mission {} does not use: is the world in the same mission?",
                     self.settings.scenario()?.name
                 ));
             }
         }
         Ok(())
     }
-}
-
-fn status_name(status: Status) -> &'static str {
-    Status::ALL
-        .iter()
-        .find(|(s, _)| *s == status)
-        .map_or("", |(_, name)| name)
 }
 
 /// What the harness is told: presets, search ranges, and the filters that have a meaning in some scenarios only.

@@ -154,3 +154,14 @@ pub enum FilterError {
         update: i32,
     },
 }
+
+impl From<interface::OutOfRange> for FilterError {
+    fn from(error: interface::OutOfRange) -> Self {
+        Self::OutOfRange {
+            permitted: error.bound.words(error.unit),
+            name: error.name,
+            value: error.value,
+            unit: error.unit,
+        }
+    }
+}

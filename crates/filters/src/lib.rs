@@ -26,6 +26,7 @@ mod units;
 pub use beliefs::Beliefs;
 pub use error::FilterError;
 pub use gravity::Gravity;
-pub use navigator::{Estimate, Innovation, Navigator, Settings, Status};
+pub use interface::Status;
+pub use navigator::{Estimate, Innovation, Navigator, Settings};
 pub use sample::Sample;
 pub use units::Units;

@@ -9,6 +9,7 @@ use crate::scenarios::{Measures, SCENARIOS, ScenarioEntry};
 use crate::state::{N_TARGET, State, TargetMatrix};
 use crate::tunable::{Bound, Tunables, Value};
 use crate::units::Units;
+use interface::Status;
 use nalgebra::{Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -83,29 +84,6 @@ impl Settings {
         let t = FILTERS[f].tunables.iter().position(|entry| entry.name == tunable)?;
         self.tunables.get_mut(f)?.get_mut(t)
     }
-}
-
-/// What a filter is doing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Status {
-    /// Waiting for the first sample.
-    Initialising,
-    /// The newest sample was measured and used.
-    Tracking,
-    /// The newest sample had no measurement of the target.
-    Coasting,
-    /// Innovations are far larger than the filter expects.
-    Diverged,
-}
-
-impl Status {
-    /// Every status with its name, in the order of the FMU's enumeration.
-    pub const ALL: [(Self, &'static str); 4] = [
-        (Self::Initialising, "initialising"),
-        (Self::Tracking, "tracking"),
-        (Self::Coasting, "coasting"),
-        (Self::Diverged, "diverged"),
-    ];
 }
 
 /// The estimate after the newest sample, SI.

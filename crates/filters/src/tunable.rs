@@ -4,42 +4,7 @@ use crate::FilterError;
 use crate::scenarios::{Defaults, default_of};
 use serde::{Deserialize, Serialize};
 
-/// The range of a real tunable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bound {
-    /// Greater than zero.
-    Positive,
-    /// Zero or greater.
-    NonNegative,
-    /// From zero to one.
-    Fraction,
-    /// Any finite value.
-    Any,
-}
-
-impl Bound {
-    /// `value` if it is finite and within the range.
-    ///
-    /// # Errors
-    /// [`FilterError::OutOfRange`], naming the variable.
-    pub fn check(self, name: &str, value: f64, unit: &'static str) -> Result<f64, FilterError> {
-        let (fits, permitted) = match self {
-            Self::Positive => (value > 0.0, "greater than 0"),
-            Self::NonNegative => (value >= 0.0, "0 or greater"),
-            Self::Fraction => ((0.0..=1.0).contains(&value), "0 to 1"),
-            Self::Any => (true, "finite"),
-        };
-        if fits && value.is_finite() {
-            return Ok(value);
-        }
-        Err(FilterError::OutOfRange {
-            name: name.into(),
-            value,
-            unit,
-            permitted: permitted.into(),
-        })
-    }
-}
+pub use interface::Bound;
 
 /// Type, start value and range of a tunable.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -167,7 +132,7 @@ impl Tunables<'_> {
         } else {
             value
         };
-        bound.check(&full, value, unit)
+        Ok(bound.check(&full, value, unit)?)
     }
 
     /// A whole-number tunable.

@@ -109,7 +109,7 @@ impl Plant {
 
 /// A standard deviation of the beliefs, or the scenario's own.
 fn sigma(scenario: &ScenarioEntry, name: &str, value: f64, unit: &'static str) -> Result<f64, FilterError> {
-    Bound::Positive.check(name, scenario.resolve(name, value)?, unit)
+    Ok(Bound::Positive.check(name, scenario.resolve(name, value)?, unit)?)
 }
 
 /// The first thing wrong with a mean and the variances of a covariance.
