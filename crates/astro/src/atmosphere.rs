@@ -1,8 +1,10 @@
 //! Density of the upper atmosphere and the drag it causes.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
-use crate::earth_rotation;
+use crate::error::{finite, positive};
+use crate::{AstroError, earth_rotation};
 
 /// Equatorial radius of the ellipsoid that altitudes are counted from, m (WGS 84).
 const EQUATORIAL_RADIUS: f64 = 6_378_137.0;
@@ -73,17 +75,93 @@ pub fn altitude(r: &Vector3<f64>) -> f64 {
     dist - EQUATORIAL_RADIUS / (1.0 + SECOND_ECCENTRICITY_SQUARED * u * u).sqrt()
 }
 
-/// Acceleration by drag in an atmosphere that turns with the Earth.
-///
-/// * `r`, `v`: inertial position and velocity, z along the Earth's axis, m and m/s; `r` not zero.
-/// * `cd_area_per_mass`: drag coefficient times cross section over mass, Cd A/m, m2/kg.
-/// * returns: same axes, m/s2, against the velocity relative to the air.
-///
-/// Source: Vallado, Fundamentals of Astrodynamics and Applications, Sec. 8.6.2.
+/// Acceleration by drag in the Earth's atmosphere, which turns with the Earth; [`Atmosphere::drag`] for
+/// [`Atmosphere::Earth`].
 pub fn drag(r: &Vector3<f64>, v: &Vector3<f64>, cd_area_per_mass: f64) -> Vector3<f64> {
-    let wind = Vector3::new(-r.y, r.x, 0.0) * earth_rotation::RATE;
-    let through_air = v - wind;
-    through_air * (-0.5 * density(altitude(r)) * cd_area_per_mass * through_air.norm())
+    Atmosphere::Earth.drag(r, v, cd_area_per_mass)
+}
+
+/// The air about a body.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Atmosphere {
+    /// The Earth's: exponential layers over the ellipsoid.
+    Earth,
+    /// One exponential layer over a sphere.
+    Layer(Layer),
+}
+
+/// One exponential layer over a sphere.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Layer {
+    /// Density at `altitude`, kg/m3, positive.
+    pub density: f64,
+    /// Altitude of that density, m.
+    pub altitude: f64,
+    /// Height over which the density falls by e, m, positive.
+    pub scale_height: f64,
+    /// Radius of the sphere that altitudes are counted from, m, positive.
+    pub radius: f64,
+    /// Rate at which the air turns about z, rad/s.
+    pub rate: f64,
+}
+
+impl Atmosphere {
+    /// One exponential layer.
+    ///
+    /// # Errors
+    /// When a number is out of its range, or the density at the surface is infinite.
+    pub fn layer(layer: Layer) -> Result<Self, AstroError> {
+        positive("density of the atmosphere", layer.density, "kg/m3")?;
+        finite("altitude of the atmosphere's density", layer.altitude, "m")?;
+        positive("scale height of the atmosphere", layer.scale_height, "m")?;
+        positive("radius of the body", layer.radius, "m")?;
+        finite("rate of the atmosphere", layer.rate, "rad/s")?;
+        if !layer.density_at(0.0).is_finite() {
+            return Err(AstroError::Layer {
+                scale_height: layer.scale_height,
+                altitude: layer.altitude,
+            });
+        }
+        Ok(Self::Layer(layer))
+    }
+
+    /// Density at a position.
+    ///
+    /// * `r`: body-centred, z along the axis of rotation, m, not zero.
+    /// * returns: kg/m3; below the surface that of the surface.
+    pub fn density(&self, r: &Vector3<f64>) -> f64 {
+        match self {
+            Self::Earth => density(altitude(r)),
+            Self::Layer(layer) => layer.density_at(r.norm() - layer.radius),
+        }
+    }
+
+    /// Rate at which the air turns about z, rad/s.
+    pub fn rate(&self) -> f64 {
+        match self {
+            Self::Earth => earth_rotation::RATE,
+            Self::Layer(layer) => layer.rate,
+        }
+    }
+
+    /// Acceleration by drag in air that turns with the body.
+    ///
+    /// * `r`, `v`: inertial position and velocity, body-centred, z along the axis of rotation, m and m/s; `r` not zero.
+    /// * `cd_area_per_mass`: drag coefficient times cross section over mass, Cd A/m, m2/kg.
+    /// * returns: same axes, m/s2, against the velocity relative to the air.
+    ///
+    /// Source: Vallado, Fundamentals of Astrodynamics and Applications, Sec. 8.6.2.
+    pub fn drag(&self, r: &Vector3<f64>, v: &Vector3<f64>, cd_area_per_mass: f64) -> Vector3<f64> {
+        let wind = Vector3::new(-r.y, r.x, 0.0) * self.rate();
+        let through_air = v - wind;
+        through_air * (-0.5 * self.density(r) * cd_area_per_mass * through_air.norm())
+    }
+}
+
+impl Layer {
+    fn density_at(&self, altitude: f64) -> f64 {
+        self.density * ((self.altitude - altitude.max(0.0)) / self.scale_height).exp()
+    }
 }
 
 #[cfg(test)]
@@ -106,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn density_of_a_printed_example_and_outside_the_table() {
+    fn val_density_of_a_printed_example_and_outside_the_table() {
         // Vallado, example 8-4: 747.2119 km, 2.1219854e-14 kg/m3.
         assert!(
             (density(747_211.9) / 2.121_985_4e-14 - 1.0).abs() < 1e-7,
@@ -145,6 +223,89 @@ mod tests {
         assert!(
             (felt - expected).amax() < 1e-4 * expected.amax(),
             "{felt} and {expected}"
+        );
+    }
+
+    /// Thin air over Mars, by hand: rho at 200 km of 3e-10 kg/m3, 10 km of scale height.
+    const MARS: Layer = Layer {
+        density: 3e-10,
+        altitude: 200e3,
+        scale_height: 10e3,
+        radius: 3.3895e6,
+        rate: 7.088e-5,
+    };
+
+    #[test]
+    fn one_layer_over_any_sphere() {
+        let air = Atmosphere::layer(MARS).unwrap();
+        let up = |altitude: f64| Vector3::new(0.0, 0.0, -(MARS.radius + altitude));
+        assert!((air.density(&up(200e3)) / 3e-10 - 1.0).abs() < 1e-12);
+        assert!((air.density(&up(220e3)) / (3e-10 * (-2.0_f64).exp()) - 1.0).abs() < 1e-12);
+        // Inside the body nothing overflows.
+        assert!((air.density(&up(-3e6)) / air.density(&up(0.0)) - 1.0).abs() < 1e-12);
+        // Against the motion, and none in air that one moves with.
+        let r = Vector3::new(3.5895e6, 0.0, 0.0);
+        let with_it = Vector3::new(0.0, 3.5895e6 * 7.088e-5, 0.0);
+        assert!(air.drag(&r, &with_it, 0.01).amax() < 1e-40);
+        let felt = air.drag(&r, &(with_it + Vector3::new(0.0, 3000.0, 4000.0)), 0.01);
+        let size = 0.5 * 3e-10 * 0.01 * 5000.0;
+        assert!(
+            (felt - Vector3::new(0.0, -3000.0 * size, -4000.0 * size)).amax() < 1e-10 * felt.amax(),
+            "{felt}"
+        );
+    }
+
+    /// Within one layer of the Earth's table, and on its equator, the two kinds are the same.
+    #[test]
+    fn a_layer_of_the_earth_is_a_layer() {
+        let layer = Atmosphere::layer(Layer {
+            density: 1.454e-13,
+            altitude: 600e3,
+            scale_height: 71.835e3,
+            radius: EQUATORIAL_RADIUS,
+            rate: earth_rotation::RATE,
+        })
+        .unwrap();
+        let (r, v) = (
+            Vector3::new(EQUATORIAL_RADIUS + 650e3, 0.0, 0.0),
+            Vector3::new(10.0, 7e3, 2e3),
+        );
+        let (one, table) = (layer.drag(&r, &v, 0.02), drag(&r, &v, 0.02));
+        assert!((one - table).amax() < 1e-12 * table.amax(), "{one} and {table}");
+    }
+
+    #[test]
+    fn impossible_layers_are_refused() {
+        let refused = |layer: Layer| Atmosphere::layer(layer).unwrap_err().to_string();
+        assert!(refused(Layer { density: 0.0, ..MARS }).contains("density"));
+        assert!(
+            refused(Layer {
+                scale_height: -1.0,
+                ..MARS
+            })
+            .contains("scale height of the atmosphere is -1 m")
+        );
+        assert!(
+            refused(Layer {
+                radius: f64::NAN,
+                ..MARS
+            })
+            .contains("radius")
+        );
+        assert!(
+            refused(Layer {
+                altitude: f64::INFINITY,
+                ..MARS
+            })
+            .contains("altitude")
+        );
+        assert!(refused(Layer { rate: f64::NAN, ..MARS }).contains("rad/s"));
+        assert!(
+            refused(Layer {
+                scale_height: 10.0,
+                ..MARS
+            })
+            .contains("lower down")
         );
     }
 }

@@ -41,7 +41,7 @@ mod tests {
     use crate::sun_moon;
 
     #[test]
-    fn sidereal_time_of_printed_examples() {
+    fn val_sidereal_time_of_printed_examples() {
         // Meeus, examples 12.a and 12.b; Vallado, example 3-5. Digits as printed; 1e-5 s of time is 4e-8 deg.
         for (jd, degrees) in [
             (2_446_895.5, 197.693_195),
@@ -55,7 +55,7 @@ mod tests {
 
     /// At noon of universal time the Sun has passed Greenwich by the equation of time, whose extremes are in every almanac.
     #[test]
-    fn the_sun_at_noon_stands_over_greenwich_but_for_the_equation_of_time() {
+    fn val_the_sun_at_noon_stands_over_greenwich_but_for_the_equation_of_time() {
         for (jd, minutes, seconds) in [(2_458_891.0, -14.0, -14.0), (2_459_157.0, 16.0, 26.0)] {
             let days = jd - J2000;
             let fixed = dcm_f_n(days) * sun_moon::sun(days);

@@ -3,6 +3,10 @@
 use nalgebra::{Rotation3, Vector3};
 
 use crate::AstroError;
+use crate::error::positive;
+
+/// Eccentricity below which an orbit is a circle, and sine of the inclination below which it is over the equator.
+const SINGULAR: f64 = 1e-12;
 
 /// Classical orbital elements; angles in rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,14 +39,99 @@ impl Elements {
         eccentric - e * eccentric.sin()
     }
 
+    /// Osculating elements of an inertial state; the inverse of [`Elements::to_state`].
+    ///
+    /// Where an angle has no meaning it is zero, and the ones that follow it are counted from where it would be: over the
+    /// equator the node lies on x, and on a circle the periapsis at the node. An orbit counts as such when the sine of its
+    /// inclination, or its eccentricity, is below 1e-12, a few times the rounding of the state; that moves nothing by more
+    /// than some 1e-12 of the distance.
+    ///
+    /// * `r`, `v`: position and velocity, m and m/s.
+    /// * `mu`: gravitational parameter, m3/s2, positive.
+    /// * returns: inclination in [0, pi], the other angles in [0, 2 pi).
+    ///
+    /// # Errors
+    /// When the state is on no closed orbit, or `mu` is not positive.
+    ///
+    /// Source: Vallado, Fundamentals of Astrodynamics and Applications, algorithm 9 (RV2COE), with angles by two-argument
+    /// arctangents.
+    pub fn from_state(r: &Vector3<f64>, v: &Vector3<f64>, mu: f64) -> Result<Self, AstroError> {
+        positive("gravitational parameter", mu, "m3/s2")?;
+        let no_orbit = AstroError::NoClosedOrbit {
+            r: (*r).into(),
+            v: (*v).into(),
+        };
+        let (distance, momentum) = (r.norm(), r.cross(v));
+        let h = momentum.norm();
+        let a = 1.0 / (2.0 / distance - v.norm_squared() / mu);
+        let towards_periapsis = v.cross(&momentum) / mu - r / distance;
+        let e = towards_periapsis.norm();
+        // Not-a-number fails every comparison.
+        if !(h > 0.0 && a > 0.0 && a.is_finite() && e < 1.0) {
+            return Err(no_orbit);
+        }
+        let normal = momentum / h;
+        let tilt = normal.x.hypot(normal.y);
+        let node = if tilt > SINGULAR {
+            normal.x.atan2(-normal.y)
+        } else {
+            0.0
+        };
+        let to_node = Vector3::new(node.cos(), node.sin(), 0.0);
+        let ahead = normal.cross(&to_node);
+        let from_node = |place: &Vector3<f64>| place.dot(&ahead).atan2(place.dot(&to_node));
+        let argument_of_periapsis = if e > SINGULAR {
+            from_node(&towards_periapsis)
+        } else {
+            0.0
+        };
+        let true_anomaly = from_node(r) - argument_of_periapsis;
+        Ok(Self {
+            a,
+            e,
+            inclination: tilt.atan2(normal.z),
+            node: turn(node),
+            argument_of_periapsis: turn(argument_of_periapsis),
+            mean_anomaly: turn(Self::mean_from_true_anomaly(true_anomaly, e)),
+        })
+    }
+
+    /// True anomaly, rad: the angle from the periapsis, in the same turn as the mean anomaly.
+    ///
+    /// Source: Broucke and Cefola, Celestial Mechanics 7 (1973), 388.
+    pub fn true_anomaly(&self) -> f64 {
+        let eccentric = eccentric_anomaly(self.mean_anomaly, self.e);
+        let (sin, cos) = eccentric.sin_cos();
+        let beta = self.e / (1.0 + (1.0 - self.e * self.e).sqrt());
+        eccentric + 2.0 * (beta * sin).atan2(1.0 - beta * cos)
+    }
+
+    /// Distance of the periapsis from the centre, m; an orbit for which this is less than the body's radius hits it.
+    pub fn periapsis_radius(&self) -> f64 {
+        self.a * (1.0 - self.e)
+    }
+
+    /// Distance of the apoapsis from the centre, m.
+    pub fn apoapsis_radius(&self) -> f64 {
+        self.a * (1.0 + self.e)
+    }
+
+    /// Period, s.
+    ///
+    /// * `mu`: gravitational parameter, m3/s2, positive.
+    pub fn period(&self, mu: f64) -> f64 {
+        std::f64::consts::TAU * self.a * (self.a / mu).sqrt()
+    }
+
     /// Inertial position and velocity, m and m/s, of these osculating elements.
     ///
     /// * `mu`: gravitational parameter, m3/s2, positive.
     ///
     /// # Errors
-    /// When the elements are not those of a closed orbit or not finite.
+    /// When the elements are not those of a closed orbit or not finite, or `mu` is not positive.
     pub fn to_state(&self, mu: f64) -> Result<(Vector3<f64>, Vector3<f64>), AstroError> {
         self.check()?;
+        positive("gravitational parameter", mu, "m3/s2")?;
         let (a, e) = (self.a, self.e);
         let anomaly = eccentric_anomaly(self.mean_anomaly, e);
         let (sin, cos) = anomaly.sin_cos();
@@ -56,7 +145,11 @@ impl Elements {
         Ok((to_inertial * r, to_inertial * v))
     }
 
-    fn check(&self) -> Result<(), AstroError> {
+    /// Whether these are the elements of a closed orbit: a > 0, 0 <= e < 1, all finite.
+    ///
+    /// # Errors
+    /// What is wrong with them.
+    pub fn check(&self) -> Result<(), AstroError> {
         if !(self.a > 0.0 && self.a.is_finite()) {
             return Err(AstroError::SemiMajorAxis { a: self.a });
         }
@@ -75,6 +168,13 @@ impl Elements {
         }
         Ok(())
     }
+}
+
+/// The same angle in [0, 2 pi).
+fn turn(angle: f64) -> f64 {
+    let angle = angle.rem_euclid(std::f64::consts::TAU);
+    // A negative angle of rounding size is rounded up to the whole turn.
+    if angle < std::f64::consts::TAU { angle } else { 0.0 }
 }
 
 /// Root of Kepler's equation E - e sin E = M.
@@ -100,6 +200,8 @@ fn eccentric_anomaly(mean: f64, e: f64) -> f64 {
 mod tests {
     use super::*;
     use nalgebra::Vector6;
+    use proptest::prelude::*;
+    use std::f64::consts::{PI, TAU};
 
     const MU: f64 = 3.986e14;
 
@@ -223,5 +325,135 @@ mod tests {
             ..elements()
         });
         assert!(error.to_string().contains("right ascension"), "{error}");
+    }
+
+    #[test]
+    fn val_elements_of_printed_examples() {
+        let degrees = |e: &Elements| {
+            [e.inclination, e.node, e.argument_of_periapsis, e.true_anomaly()].map(|angle| angle.to_degrees())
+        };
+        // Vallado, example 2-5.
+        let (r, v) = (
+            Vector3::new(6524.834e3, 6862.875e3, 6448.296e3),
+            Vector3::new(4901.327, 5533.756, -1976.341),
+        );
+        let e = Elements::from_state(&r, &v, 3.986_004_418e14).unwrap();
+        assert!((e.a - 36_127.343e3).abs() < 20.0, "{e:?}");
+        assert!((e.e - 0.832_853).abs() < 1e-6, "{e:?}");
+        for (seen, printed) in degrees(&e).into_iter().zip([87.870, 227.898, 53.38, 92.335]) {
+            assert!((seen - printed).abs() < 6e-3, "{seen} and {printed}");
+        }
+        // Curtis, Orbital Mechanics for Engineering Students, example 4.3: a retrograde orbit.
+        let (r, v) = (
+            Vector3::new(-6045e3, -3490e3, 2500e3),
+            Vector3::new(-3457.0, 6618.0, 2533.0),
+        );
+        let e = Elements::from_state(&r, &v, 3.986e14).unwrap();
+        assert!((e.a - 8788e3).abs() < 500.0 && (e.e - 0.1712).abs() < 5e-5, "{e:?}");
+        for (seen, printed) in degrees(&e).into_iter().zip([153.2, 255.3, 20.07, 28.45]) {
+            assert!((seen - printed).abs() < 0.05, "{seen} and {printed}");
+        }
+        assert!(
+            (e.periapsis_radius() - 7284e3).abs() < 1e3 && (e.apoapsis_radius() - 10_293e3).abs() < 2e3,
+            "{e:?}"
+        );
+    }
+
+    #[test]
+    fn val_period_of_a_geostationary_orbit_is_a_sidereal_day() {
+        let stationary = Elements {
+            a: 42_164.17e3,
+            ..elements()
+        };
+        // Printed to 5 m, which is worth 15 ms.
+        assert!((stationary.period(3.986_004_418e14) - 86_164.1).abs() < 0.05);
+    }
+
+    #[test]
+    fn angles_without_a_meaning_are_zero() {
+        let speed = (MU / 7e6_f64).sqrt();
+        let of = |r: [f64; 3], v: [f64; 3]| Elements::from_state(&Vector3::from(r), &Vector3::from(v), MU).unwrap();
+        let quarter = std::f64::consts::FRAC_PI_2;
+        for (e, inclination, node, periapsis, anomaly) in [
+            // Circle over the equator, a quarter turn from x, either way round.
+            (of([0.0, 7e6, 0.0], [-speed, 0.0, 0.0]), 0.0, 0.0, 0.0, quarter),
+            (
+                of([0.0, 7e6, 0.0], [speed, 0.0, 0.0]),
+                2.0 * quarter,
+                0.0,
+                0.0,
+                3.0 * quarter,
+            ),
+            // Circle over the poles that rises through y, seen over the pole.
+            (of([0.0, 0.0, 7e6], [0.0, -speed, 0.0]), quarter, quarter, 0.0, quarter),
+            // Ellipse over the equator, at its periapsis on -y.
+            (
+                of([0.0, -7e6, 0.0], [1.1 * speed, 0.0, 0.0]),
+                0.0,
+                0.0,
+                3.0 * quarter,
+                0.0,
+            ),
+        ] {
+            let seen = [e.inclination, e.node, e.argument_of_periapsis, e.mean_anomaly];
+            for (seen, expected) in seen.into_iter().zip([inclination, node, periapsis, anomaly]) {
+                assert!((seen - expected).abs() < 1e-12, "{e:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn states_of_no_closed_orbit_are_refused() {
+        let r = Vector3::new(7e6, 0.0, 0.0);
+        let escape = (2.0 * MU / 7e6_f64).sqrt();
+        for (r, v) in [
+            (r, Vector3::new(0.0, escape * 1.000_001, 0.0)),
+            (r, Vector3::new(100.0, 0.0, 0.0)),
+            (r, Vector3::zeros()),
+            (Vector3::zeros(), Vector3::new(1.0, 2.0, 3.0)),
+            (r, Vector3::new(0.0, f64::NAN, 0.0)),
+            (r * f64::INFINITY, Vector3::new(0.0, 7e3, 0.0)),
+        ] {
+            let error = Elements::from_state(&r, &v, MU).unwrap_err();
+            assert!(matches!(error, AstroError::NoClosedOrbit { .. }), "{error}");
+        }
+        for mu in [0.0, -MU, f64::NAN] {
+            assert!(matches!(elements().to_state(mu), Err(AstroError::NotPositive { .. })));
+            assert!(Elements::from_state(&r, &Vector3::y(), mu).is_err());
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn elements_undo_states(
+            a in 1e6..1e9_f64,
+            e in prop_oneof![Just(0.0), 0.0..1e-6_f64, 0.0..0.95_f64],
+            inclination in prop_oneof![Just(0.0), 0.0..PI, Just(PI)],
+            node in -TAU..TAU,
+            argument_of_periapsis in -TAU..TAU,
+            mean_anomaly in -TAU..TAU,
+        ) {
+            let given = Elements { a, e, inclination, node, argument_of_periapsis, mean_anomaly };
+            let (r, v) = given.to_state(MU).unwrap();
+            let found = Elements::from_state(&r, &v, MU).unwrap();
+            let (r_back, v_back) = found.to_state(MU).unwrap();
+            // Rounding of 1 - e and of angles; the circle costs SINGULAR.
+            let bound = 1e-11 / (1.0 - e);
+            prop_assert!((r_back - r).norm() < bound * a, "{found:?}");
+            prop_assert!((v_back - v).norm() < bound * v.norm() / (1.0 - e), "{found:?}");
+            prop_assert!((found.a / a - 1.0).abs() < bound && (found.e - e).abs() < 1e-13 / (1.0 - e), "{found:?}");
+            prop_assert!((found.inclination - inclination).abs() < 1e-7, "{found:?}");
+            for angle in [found.node, found.argument_of_periapsis, found.mean_anomaly] {
+                prop_assert!((0.0..TAU).contains(&angle), "{found:?}");
+            }
+        }
+
+        #[test]
+        fn true_and_mean_anomaly_undo_each_other(true_anomaly in -20.0..20.0_f64, e in 0.0..0.99_f64) {
+            let mean_anomaly = Elements::mean_from_true_anomaly(true_anomaly, e);
+            let back = Elements { e, mean_anomaly, ..elements() }.true_anomaly();
+            // Near the periapsis the true anomaly goes faster by up to sqrt((1 + e) / (1 - e)^3).
+            prop_assert!((back - true_anomaly).abs() < 1e-14 * ((1.0 + e) / (1.0 - e).powi(3)).sqrt() * 20.0);
+        }
     }
 }

@@ -18,6 +18,20 @@ pub fn rtn(r: &Vector3<f64>, v: &Vector3<f64>) -> Matrix3<f64> {
     from_rows(&radial, &normal.cross(&radial), &normal)
 }
 
+/// The same axes where the orbit defines them.
+///
+/// Where it nearly does not, [`rtn`] keeps orthogonality to the last digit and this does not; elsewhere the two agree to
+/// rounding.
+///
+/// * `r`, `v`: inertial position and velocity, m and m/s.
+/// * returns: `dcm_rtn_n`, or `None` where position and velocity are parallel, one of them is zero, or not finite.
+pub fn try_rtn(r: &Vector3<f64>, v: &Vector3<f64>) -> Option<Matrix3<f64>> {
+    let radial = r.try_normalize(0.0)?;
+    let normal = r.cross(v).try_normalize(0.0)?;
+    let dcm = from_rows(&radial, &normal.cross(&radial), &normal);
+    dcm.iter().all(|x| x.is_finite()).then_some(dcm)
+}
+
 /// Body axes of a vehicle that looks at another: y along the line of sight, z along the normal of the relative motion,
 /// x completes.
 ///
@@ -135,6 +149,23 @@ mod tests {
         let dcm = rtn(&Vector3::new(0.0, 0.0, 7e6), &Vector3::new(-7.5e3, 0.0, 0.0));
         let expected = Matrix3::new(0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0);
         assert!((dcm - expected).amax() < 1e-15, "{dcm}");
+    }
+
+    #[test]
+    fn axes_that_no_orbit_defines_are_none() {
+        let (r, v) = (Vector3::new(7e6, 1e6, -2e6), Vector3::new(1e3, 7e3, 2e2));
+        assert!((try_rtn(&r, &v).unwrap() - rtn(&r, &v)).amax() < 1e-15);
+        let zero = Vector3::zeros();
+        let nan = Vector3::new(f64::NAN, 0.0, 0.0);
+        for (r, v) in [
+            (zero, v),
+            (r, zero),
+            (Vector3::x(), Vector3::x() * -2.0),
+            (nan, v),
+            (r, nan),
+        ] {
+            assert_eq!(try_rtn(&r, &v), None, "{r} {v}");
+        }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Pressure of sunlight on a sphere, and the shadow of the Earth.
+//! Pressure of sunlight on a sphere, and the shadow of the body that it flies about.
 
 use nalgebra::Vector3;
 
@@ -8,10 +8,10 @@ pub const PRESSURE: f64 = 4.56e-6;
 /// Astronomical unit, m (IAU 2012).
 pub const ASTRONOMICAL_UNIT: f64 = 149_597_870_700.0;
 
-/// Whether the Sun is seen from `r`: the shadow is a cylinder behind the Earth, without penumbra.
+/// Whether the Sun is seen from `r`: the shadow is a cylinder behind the central body, without penumbra.
 ///
-/// * `r`, `sun`: geocentric positions of the satellite and of the Sun, same axes, m; `sun` not zero.
-/// * `radius`: radius of the Earth, m.
+/// * `r`, `sun`: positions of the satellite and of the Sun from the centre of the body, same axes, m; `sun` not zero.
+/// * `radius`: radius of the body, m; below 0 there is no shadow.
 pub fn is_lit(r: &Vector3<f64>, sun: &Vector3<f64>, radius: f64) -> bool {
     let to_sun = sun.normalize();
     let along = r.dot(&to_sun);
@@ -21,7 +21,7 @@ pub fn is_lit(r: &Vector3<f64>, sun: &Vector3<f64>, radius: f64) -> bool {
 /// Acceleration of a sphere by sunlight, away from the Sun; zero in the shadow.
 ///
 /// * `r`, `sun`: as for [`is_lit`], m.
-/// * `radius`: radius of the Earth, m.
+/// * `radius`: as for [`is_lit`].
 /// * `cr_area_per_mass`: radiation pressure coefficient times cross section over mass, Cr A/m, m2/kg. Cr is 1 where light
 ///   is absorbed and 2 where it is thrown straight back.
 /// * returns: same axes, m/s2.

@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn sun_and_moon_of_meeus() {
+    fn val_sun_and_moon_of_meeus() {
         // Meeus, Astronomical Algorithms, example 25.b (VSOP87): true longitude and distance, 1992 October 13.
         let r = sun(2_448_908.5 - J2000);
         let (longitude, latitude) = ecliptic(&r);
@@ -177,7 +177,7 @@ mod tests {
 
     /// Seasons of 2020 (universal time) to the minute; the Sun moves by 0.04 deg in an hour.
     #[test]
-    fn seasons_of_2020() {
+    fn val_seasons_of_2020() {
         for (jd, hours, expected) in [
             (2_458_928.5, 3.0 + 50.0 / 60.0, 0.0),
             (2_459_020.5, 21.0 + 44.0 / 60.0, 90.0),
@@ -199,7 +199,7 @@ mod tests {
     /// In a solar eclipse the line from the Sun through the Moon passes the Earth's centre at the distance gamma, in
     /// Earth radii, positive north. Times and gamma: NASA's Five Millennium Canon of Solar Eclipses.
     #[test]
-    fn the_shadow_of_the_moon_falls_where_eclipses_were_seen() {
+    fn val_the_shadow_of_the_moon_falls_where_eclipses_were_seen() {
         for (jd, seconds, gamma) in [
             (2_457_986.5, 18.0 * 3600.0 + 26.0 * 60.0 + 40.0, 0.4367),
             (2_458_843.5, 5.0 * 3600.0 + 18.0 * 60.0 + 53.0, 0.4135),
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn the_moon_keeps_its_month_and_its_distances() {
+    fn val_the_moon_keeps_its_month_and_its_distances() {
         let hours = 20 * 365 * 24;
         let (mut turns, mut last) = (0.0, ecliptic(&moon(0.0)).0);
         let (mut nearest, mut farthest) = (f64::INFINITY, 0.0_f64);

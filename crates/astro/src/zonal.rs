@@ -3,6 +3,9 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::AstroError;
+use crate::error::{finite, positive};
+
 /// Degree of the first entry of [`ZonalGravity::j`].
 const FIRST_DEGREE: usize = 2;
 
@@ -35,6 +38,32 @@ struct Sums {
 }
 
 impl ZonalGravity {
+    /// Gravity of a body.
+    ///
+    /// * `mu`: gravitational parameter, m3/s2.
+    /// * `r_ref`: reference radius of the coefficients, m.
+    /// * `j`: J2, J3, ... unnormalised, as many as are known up to J6; empty for two-body gravity.
+    ///
+    /// # Errors
+    /// When `mu` or `r_ref` is not positive, a coefficient not finite, or there are more than five.
+    pub fn new(mu: f64, r_ref: f64, j: &[f64]) -> Result<Self, AstroError> {
+        let mut all = [0.0; 5];
+        if j.len() > all.len() {
+            return Err(AstroError::Zonals {
+                given: j.len(),
+                allowed: all.len(),
+            });
+        }
+        for (place, value) in all.iter_mut().zip(j) {
+            *place = finite("zonal coefficient", *value, "(no unit)")?;
+        }
+        Ok(Self {
+            mu: positive("gravitational parameter", mu, "m3/s2")?,
+            r_ref: positive("reference radius", r_ref, "m")?,
+            j: all,
+        })
+    }
+
     /// Potential per unit mass, positive towards the body (acceleration is its gradient).
     ///
     /// * `r`: position, body-centred, z along the axis of symmetry, m.
@@ -222,6 +251,40 @@ mod tests {
                 assert!(g.trace().abs() < 1e-19, "Laplace: {}", g.trace());
                 assert!((g - g.transpose()).amax() < 1e-22);
             }
+        }
+    }
+
+    #[test]
+    fn two_body_gravity_is_the_case_without_coefficients() {
+        let moon = ZonalGravity::new(4.9028e12, 1.7374e6, &[]).unwrap();
+        for r in POSITIONS.map(Vector3::from) {
+            let pull = r * (-4.9028e12 / r.norm().powi(3));
+            assert!((moon.acceleration(&r) - pull).amax() < 1e-15 * pull.amax());
+            let e = r.normalize();
+            let tide = (e * e.transpose() * 3.0 - Matrix3::identity()) * (4.9028e12 / r.norm().powi(3));
+            assert!((moon.gradient(&r) - tide).amax() < 1e-15 * tide.amax());
+        }
+        assert_eq!(
+            ZonalGravity::new(earth::MU, earth::RADIUS, &earth::ZONALS).unwrap(),
+            earth::TRUTH
+        );
+        assert_eq!(
+            ZonalGravity::new(earth::MU, earth::RADIUS, &earth::ZONALS[..3]).unwrap(),
+            earth::FILTER
+        );
+    }
+
+    #[test]
+    fn what_is_no_body_is_refused() {
+        for (mu, r_ref, j, said) in [
+            (0.0, 1.0, vec![], "gravitational parameter is 0 m3/s2"),
+            (1.0, -2.0, vec![], "reference radius is -2 m"),
+            (f64::NAN, 1.0, vec![], "NaN"),
+            (1.0, 1.0, vec![1e-3, f64::INFINITY], "inf"),
+            (1.0, 1.0, vec![0.0; 6], "6 zonal coefficients: J2 to J6, 5 at most"),
+        ] {
+            let error = ZonalGravity::new(mu, r_ref, &j).unwrap_err().to_string();
+            assert!(error.contains(said), "{error}");
         }
     }
 }
