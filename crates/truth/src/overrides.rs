@@ -58,12 +58,25 @@ impl Params {
         }
     }
 
-    /// Sets every element of a parameter by its name, unchecked; false if there is none of that name.
+    /// Sets a parameter by its name, unchecked: one element of a vector as `name[1]`, all of them as `name`. False if there is
+    /// none of that name.
     pub fn set(&mut self, name: &str, value: f64) -> bool {
-        let row = PARAMETERS.iter().position(|row| row.name == name);
-        row.and_then(|row| self.values.get_mut(row))
-            .map(|values| values.fill(value))
-            .is_some()
+        let (name, element) = match name.strip_suffix(']').and_then(|name| name.split_once('[')) {
+            Some((name, element)) => (name, element.parse::<usize>().ok()),
+            None => (name, None),
+        };
+        let Some(row) = PARAMETERS.iter().position(|row| row.name == name) else {
+            return false;
+        };
+        let Some(values) = self.values.get_mut(row) else {
+            return false;
+        };
+        let places = match element {
+            Some(element) => values.get_mut(element.wrapping_sub(1)..element).unwrap_or_default(),
+            None => values.as_mut_slice(),
+        };
+        places.fill(value);
+        !places.is_empty()
     }
 
     /// The mission that the file or the scenario names, changed by every parameter that is not left to it.
