@@ -72,12 +72,12 @@ fn study(t: &mut Builder) {
         .parameter()
         .start(1)
         .about("which of the missions that come with the FMU the filter is told of: dynamics, state, and every parameter at -1")
-        .rw(|m| m.scenario, |m, v| m.scenario = v);
+        .rw(|m| m.choice.scenario, |m, v| m.choice.scenario = v);
     t.string("mission_file")
         .parameter()
         .start("")
         .about("path of a mission file, which then stands for the scenario; empty: none")
-        .rw(|m| m.mission_file.clone(), |m, v| m.mission_file = v);
+        .rw(|m| m.choice.mission_file.clone(), |m, v| m.choice.mission_file = v);
     t.enumeration("filter", "Filter")
         .parameter()
         .start(1)

@@ -4,9 +4,10 @@ use crate::variables;
 use astro::TargetOrbit;
 use fmi2_export::{Experiment, Log, Model, ModelError, ModelInfo, Table};
 use interface::Signals;
-use interface::mission::Embedded;
+use interface::mission::{Embedded, packed_guid};
 use interface::signals::Seen;
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 use std::sync::OnceLock;
 use truth::{Inputs, Params, SensorSample, Simulation};
 
@@ -60,6 +61,14 @@ impl Model for TruthModel {
             simulation: None,
             signals: nothing(),
         }
+    }
+
+    fn set_resources(&mut self, folder: &Path) {
+        self.params.choice.resources = Some(folder.to_owned());
+    }
+
+    fn identifier_with(own: &str, resources: &Path) -> Option<String> {
+        packed_guid(own, resources)
     }
 
     fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError> {

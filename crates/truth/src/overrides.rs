@@ -1,7 +1,7 @@
 //! The parameters of a run, named as in the FMU: what a user sets goes before what the mission file states.
 
 use interface::Bound;
-use interface::mission::{Embedded, Mission, embedded};
+use interface::mission::{Choice, Mission, embedded};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -10,10 +10,8 @@ use crate::TruthError;
 /// What a user may set before a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Params {
-    /// Which of the missions that come with the project, counted from 1 among those of the `scenario` enumeration.
-    pub scenario: i32,
-    /// Path of a mission file; empty: none, the scenario counts.
-    pub mission_file: String,
+    /// Which mission.
+    pub choice: Choice,
     /// Seed of the whole study.
     pub study_seed: u32,
     /// Number of the run in the study.
@@ -30,8 +28,7 @@ impl Default for Params {
     /// The first scenario, seed 1, run 0, and the start column of [`PARAMETERS`].
     fn default() -> Self {
         Self {
-            scenario: 1,
-            mission_file: String::new(),
+            choice: Choice::default(),
             study_seed: 1,
             run: 0,
             burn_enabled: true,
@@ -84,11 +81,7 @@ impl Params {
     /// # Errors
     /// When the mission cannot be read, does not exist, or a parameter is out of range.
     pub fn run(&self) -> Result<Run, TruthError> {
-        let mission = if self.mission_file.is_empty() {
-            self.scenario()?.mission()?
-        } else {
-            Mission::read(self.mission_file.as_ref())?
-        };
+        let mission = self.choice.mission()?;
         let mut run = Run {
             mission,
             study_seed: self.study_seed.into(),
@@ -124,19 +117,6 @@ impl Params {
             }
         }
         Ok(run)
-    }
-
-    fn scenario(&self) -> Result<&'static Embedded, TruthError> {
-        let place = usize::try_from(i64::from(self.scenario) - 1).ok();
-        place.and_then(|place| Embedded::scenarios().nth(place)).ok_or_else(|| {
-            let names = Embedded::scenarios()
-                .zip(1..)
-                .map(|(entry, number)| format!("{number} ({})", entry.name));
-            TruthError::Scenario {
-                ordinal: self.scenario,
-                known: names.collect::<Vec<_>>().join(", "),
-            }
-        })
     }
 }
 

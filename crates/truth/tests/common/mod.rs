@@ -12,7 +12,7 @@ use truth::{Inputs, Params, SensorSample, Simulation};
 /// Parameters at their start for an item of the `scenario` enumeration.
 pub fn of_scenario(ordinal: i32) -> Params {
     let mut params = Params::default();
-    params.scenario = ordinal;
+    params.choice.scenario = ordinal;
     params
 }
 
@@ -52,7 +52,7 @@ impl File {
 
     pub fn params(&self) -> Params {
         let mut params = Params::default();
-        params.mission_file = self.folder.path().join("mission.toml").display().to_string();
+        params.choice.mission_file = self.folder.path().join("mission.toml").display().to_string();
         params
     }
 
