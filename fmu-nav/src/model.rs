@@ -8,19 +8,18 @@ use filters::state::State;
 use filters::{FilterError, Navigator, Sample, Settings};
 use fmi2_export::{Experiment, Log, Model, ModelError, ModelInfo, Table, VendorAnnotation};
 use interface::annotation::{self, Filters, Only, Preset, Search, Set};
-use interface::mission::{Embedded, Mission};
+use interface::mission::{Choice, Embedded, packed_guid};
 use interface::{Signals, Status};
 use nalgebra::{Matrix3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 use std::sync::OnceLock;
 
 /// One slave.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct NavModel {
-    /// Which of the missions that come with the FMU, from 1.
-    pub scenario: i32,
-    /// Path of a mission file, which goes before the scenario; empty: none.
-    pub mission_file: String,
+    /// Which mission the filter is told of.
+    pub mission: Choice,
     /// The other parameters.
     pub settings: Settings,
     /// Inputs as set; they take effect in a step only.
@@ -38,20 +37,6 @@ impl NavModel {
     /// What the filter is doing.
     pub fn status(&self) -> Status {
         self.navigator.as_ref().map_or(Status::Initialising, Navigator::status)
-    }
-
-    /// The mission that the file or the scenario names.
-    fn mission(&self) -> Result<Mission, ModelError> {
-        if !self.mission_file.is_empty() {
-            return Ok(Mission::read(self.mission_file.as_ref())?);
-        }
-        let place = usize::try_from(i64::from(self.scenario) - 1).ok();
-        let entry = place.and_then(|place| Embedded::scenarios().nth(place));
-        let entry = entry.ok_or_else(|| FilterError::UnknownScenario {
-            name: format!("number {}", self.scenario),
-            known: Embedded::scenarios().map(|e| e.name).collect::<Vec<_>>().join(", "),
-        })?;
-        Ok(entry.mission()?)
     }
 }
 
@@ -103,16 +88,23 @@ impl Model for NavModel {
 
     fn blank() -> Self {
         Self {
-            scenario: 1,
-            mission_file: String::new(),
+            mission: Choice::default(),
             settings: Settings::default(),
             inputs: Signals::default(),
             navigator: None,
         }
     }
 
+    fn set_resources(&mut self, folder: &Path) {
+        self.mission.resources = Some(folder.to_owned());
+    }
+
+    fn identifier_with(own: &str, resources: &Path) -> Option<String> {
+        packed_guid(own, resources)
+    }
+
     fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError> {
-        let navigation = self.mission()?.navigation();
+        let navigation = self.mission.mission()?.navigation();
         let scenario = SCENARIOS.iter().position(|s| s.name == navigation.mission);
         self.settings.scenario = scenario.ok_or_else(|| FilterError::UnknownScenario {
             name: navigation.mission.clone(),
