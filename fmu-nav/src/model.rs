@@ -18,8 +18,8 @@ use std::sync::OnceLock;
 /// One slave.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct NavModel {
-    /// Which mission the filter is told of.
-    pub mission: Choice,
+    /// Which mission.
+    pub choice: Choice,
     /// The other parameters.
     pub settings: Settings,
     /// Inputs as set; they take effect in a step only.
@@ -88,7 +88,7 @@ impl Model for NavModel {
 
     fn blank() -> Self {
         Self {
-            mission: Choice::default(),
+            choice: Choice::default(),
             settings: Settings::default(),
             inputs: Signals::default(),
             navigator: None,
@@ -96,7 +96,7 @@ impl Model for NavModel {
     }
 
     fn set_resources(&mut self, folder: &Path) {
-        self.mission.resources = Some(folder.to_owned());
+        self.choice.resources = Some(folder.to_owned());
     }
 
     fn identifier_with(own: &str, resources: &Path) -> Option<String> {
@@ -104,7 +104,7 @@ impl Model for NavModel {
     }
 
     fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError> {
-        let navigation = self.mission.mission()?.navigation();
+        let navigation = self.choice.mission()?.navigation();
         let scenario = SCENARIOS.iter().position(|s| s.name == navigation.mission);
         self.settings.scenario = scenario.ok_or_else(|| FilterError::UnknownScenario {
             name: navigation.mission.clone(),

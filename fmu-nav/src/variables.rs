@@ -72,12 +72,12 @@ fn study(t: &mut Builder) {
         .parameter()
         .start(1)
         .about("which of the missions that come with the FMU the filter is told of: dynamics, state, and every parameter at -1")
-        .rw(|m| m.mission.scenario, |m, v| m.mission.scenario = v);
+        .rw(|m| m.choice.scenario, |m, v| m.choice.scenario = v);
     t.string("mission_file")
         .parameter()
         .start("")
         .about("path of a mission file, or name of one in the FMU's resources/missions, which then stands for the scenario; empty: none")
-        .rw(|m| m.mission.mission_file.clone(), |m, v| m.mission.mission_file = v);
+        .rw(|m| m.choice.mission_file.clone(), |m, v| m.choice.mission_file = v);
     t.enumeration("filter", "Filter")
         .parameter()
         .start(1)
@@ -385,7 +385,7 @@ mod tests {
     fn started(scenario: i32) -> NavModel {
         let mut model = NavModel::blank();
         NavModel::table().apply_start(&mut model);
-        model.mission.scenario = scenario;
+        model.choice.scenario = scenario;
         model
     }
 
@@ -528,7 +528,7 @@ mod tests {
     fn a_mission_file_goes_before_the_scenario() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../missions/formation.toml");
         let mut told = started(1);
-        told.mission.mission_file = path.to_string_lossy().into_owned();
+        told.choice.mission_file = path.to_string_lossy().into_owned();
         let (told, same) = (sampled(initialised(told), 1), sampled(initialised(started(3)), 1));
         assert_eq!(told.navigator.unwrap().estimate(), same.navigator.unwrap().estimate());
     }
@@ -542,7 +542,7 @@ mod tests {
         };
         for (scenario, file, part) in [(1, "nowhere/none.toml", "none.toml"), (9, "", "1 (leo_venting)")] {
             let mut model = started(scenario);
-            model.mission.mission_file = file.to_owned();
+            model.choice.mission_file = file.to_owned();
             let error = model
                 .initialise(&experiment, &mut Log::silent())
                 .unwrap_err()
