@@ -4,7 +4,7 @@
 //! so that another law changes no other row.
 
 use crate::beliefs::{BELIEFS, Belief, Place};
-use crate::model::NavModel;
+use crate::slave::NavModel;
 use filters::laws::FILTERS;
 use filters::scenarios::Measures;
 use filters::tunable::{Kind, Tunable, Value};
