@@ -1,7 +1,7 @@
 //! The parameters of a run, named as in the FMU: what a user sets goes before what the mission file states.
 
 use interface::Bound;
-use interface::mission::{Embedded, Mission, embedded};
+use interface::mission::{Choice, Mission, embedded};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -10,10 +10,8 @@ use crate::TruthError;
 /// What a user may set before a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Params {
-    /// Which of the missions that come with the project, counted from 1 among those of the `scenario` enumeration.
-    pub scenario: i32,
-    /// Path of a mission file; empty: none, the scenario counts.
-    pub mission_file: String,
+    /// Which mission.
+    pub choice: Choice,
     /// Seed of the whole study.
     pub study_seed: u32,
     /// Number of the run in the study.
@@ -30,8 +28,7 @@ impl Default for Params {
     /// The first scenario, seed 1, run 0, and the start column of [`PARAMETERS`].
     fn default() -> Self {
         Self {
-            scenario: 1,
-            mission_file: String::new(),
+            choice: Choice::default(),
             study_seed: 1,
             run: 0,
             burn_enabled: true,
@@ -58,12 +55,25 @@ impl Params {
         }
     }
 
-    /// Sets every element of a parameter by its name, unchecked; false if there is none of that name.
+    /// Sets a parameter by its name, unchecked: one element of a vector as `name[1]`, all of them as `name`. False if there is
+    /// none of that name.
     pub fn set(&mut self, name: &str, value: f64) -> bool {
-        let row = PARAMETERS.iter().position(|row| row.name == name);
-        row.and_then(|row| self.values.get_mut(row))
-            .map(|values| values.fill(value))
-            .is_some()
+        let (name, element) = match name.strip_suffix(']').and_then(|name| name.split_once('[')) {
+            Some((name, element)) => (name, element.parse::<usize>().ok()),
+            None => (name, None),
+        };
+        let Some(row) = PARAMETERS.iter().position(|row| row.name == name) else {
+            return false;
+        };
+        let Some(values) = self.values.get_mut(row) else {
+            return false;
+        };
+        let places = match element {
+            Some(element) => values.get_mut(element.wrapping_sub(1)..element).unwrap_or_default(),
+            None => values.as_mut_slice(),
+        };
+        places.fill(value);
+        !places.is_empty()
     }
 
     /// The mission that the file or the scenario names, changed by every parameter that is not left to it.
@@ -71,11 +81,7 @@ impl Params {
     /// # Errors
     /// When the mission cannot be read, does not exist, or a parameter is out of range.
     pub fn run(&self) -> Result<Run, TruthError> {
-        let mission = if self.mission_file.is_empty() {
-            self.scenario()?.mission()?
-        } else {
-            Mission::read(self.mission_file.as_ref())?
-        };
+        let mission = self.choice.mission()?;
         let mut run = Run {
             mission,
             study_seed: self.study_seed.into(),
@@ -111,19 +117,6 @@ impl Params {
             }
         }
         Ok(run)
-    }
-
-    fn scenario(&self) -> Result<&'static Embedded, TruthError> {
-        let place = usize::try_from(i64::from(self.scenario) - 1).ok();
-        place.and_then(|place| Embedded::scenarios().nth(place)).ok_or_else(|| {
-            let names = Embedded::scenarios()
-                .zip(1..)
-                .map(|(entry, number)| format!("{number} ({})", entry.name));
-            TruthError::Scenario {
-                ordinal: self.scenario,
-                known: names.collect::<Vec<_>>().join(", "),
-            }
-        })
     }
 }
 

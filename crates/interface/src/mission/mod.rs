@@ -118,7 +118,10 @@ fn date<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Option<Stri
         Toml(toml::value::Datetime),
     }
     Ok(Some(match Date::deserialize(deserializer)? {
-        Date::Text(text) => text,
+        // As TOML writes it, whatever stands between day and time.
+        Date::Text(text) => text
+            .parse()
+            .map_or(text, |date: toml::value::Datetime| date.to_string()),
         Date::Toml(date) => date.to_string(),
     }))
 }

@@ -53,8 +53,8 @@ pub struct SensorSample {
 pub(crate) struct Scene {
     /// Target relative to chaser, N, m.
     pub r_tc_n: Vector3<f64>,
-    /// Its inertial rate of change, N, m/s.
-    pub v_tc_i_n: Vector3<f64>,
+    /// Its rate of change as seen in N, m/s.
+    pub v_tc_n: Vector3<f64>,
     /// The relative state as metrology has it, and the target's orbit, where it is on board.
     pub metrology: Option<(nalgebra::Vector6<f64>, TargetOrbit)>,
     /// Acceleration of the chaser beside gravity just after the epoch, N, m/s2.
@@ -118,21 +118,19 @@ macro_rules! sensors {
                 epochs.into_iter().flatten().fold(f64::INFINITY, f64::min)
             }
 
-            /// The sample after `last`, taken at `time`, which is `elapsed` seconds after the start of the run.
-            pub(crate) fn sample(&mut self, last: &SensorSample, time: f64, elapsed: f64, scene: &Scene) -> SensorSample {
-                SensorSample {
-                    count: last.count + 1,
-                    time,
-                    $($name: match &mut self.$name {
-                        Some((clock, sensor)) if clock.due(elapsed) => {
-                            clock.taken += 1;
-                            sensor.sample(&last.$name, scene)
-                        }
-                        _ => last.$name.not_due(),
-                    },)*
-                    target_orbit: scene.metrology.map(|(_, orbit)| orbit),
-                    dcm_bc_n: scene.dcm_bc_n,
-                }
+            /// Takes the sample after `sample`, at `time`, which is `elapsed` seconds after the start of the run.
+            pub(crate) fn sample(&mut self, sample: &mut SensorSample, time: f64, elapsed: f64, scene: &Scene) {
+                sample.count += 1;
+                sample.time = time;
+                $(match &mut self.$name {
+                    Some((clock, sensor)) if clock.due(elapsed) => {
+                        clock.taken += 1;
+                        sensor.sample(&mut sample.$name, scene);
+                    }
+                    _ => sample.$name.not_due(),
+                })*
+                sample.target_orbit = scene.metrology.map(|(_, orbit)| orbit);
+                sample.dcm_bc_n = scene.dcm_bc_n;
             }
         }
 
