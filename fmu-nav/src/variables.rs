@@ -4,7 +4,7 @@
 //! so that another law changes no other row.
 
 use crate::beliefs::{BELIEFS, Belief, Place};
-use crate::model::NavModel;
+use crate::slave::NavModel;
 use filters::laws::FILTERS;
 use filters::scenarios::Measures;
 use filters::tunable::{Kind, Tunable, Value};
@@ -76,7 +76,7 @@ fn study(t: &mut Builder) {
     t.string("mission_file")
         .parameter()
         .start("")
-        .about("path of a mission file, which then stands for the scenario; empty: none")
+        .about("path of a mission file, or name of one in the FMU's resources/missions, which then stands for the scenario; empty: none")
         .rw(|m| m.choice.mission_file.clone(), |m, v| m.choice.mission_file = v);
     t.enumeration("filter", "Filter")
         .parameter()
@@ -357,6 +357,197 @@ fn estimate_row(t: &mut Builder, port: &'static Port, shown: Shown) {
                         .matrix(rows, columns, move |m, i, j| m.read(|n| get(n, columns * i + j)));
                 }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fmi2_export::{Experiment, Log, Model};
+    use interface::ports::PORTS;
+    use interface::signals::Seen;
+    use std::path::Path;
+
+    /// Value of a variable.
+    fn real(model: &NavModel, name: &str) -> f64 {
+        let table = NavModel::table();
+        let entry = table.find(name).and_then(|number| table.entry(number)).unwrap();
+        entry.read(model).unwrap()
+    }
+
+    fn integer(model: &NavModel, name: &str) -> i32 {
+        let table = NavModel::table();
+        let entry = table.find(name).and_then(|number| table.entry(number)).unwrap();
+        entry.read(model).unwrap()
+    }
+
+    fn started(scenario: i32) -> NavModel {
+        let mut model = NavModel::blank();
+        NavModel::table().apply_start(&mut model);
+        model.choice.scenario = scenario;
+        model
+    }
+
+    fn initialised(mut model: NavModel) -> NavModel {
+        let experiment = Experiment {
+            start_time: 0.0,
+            stop_time: None,
+            tolerance: None,
+        };
+        model.initialise(&experiment, &mut Log::silent()).unwrap();
+        model
+    }
+
+    /// A sample at `t` seconds, which is also its ordinal, with every sensor's measurement; both vehicles in low orbit.
+    fn sampled(mut model: NavModel, t: i32) -> NavModel {
+        let seen = Seen { due: true, valid: true };
+        let mut init = [0.0; 18];
+        init[..6].copy_from_slice(&[500.0, 30.0, -20.0, -0.5, 0.1, 0.0]);
+        init[9..15].copy_from_slice(&[6.878e6, 0.0, 0.0, 0.0, 7.6e3, 0.0]);
+        model.inputs = Signals {
+            sample_time: f64::from(t),
+            sample_count: t,
+            lidar: seen,
+            lidar_z: [501.0, 1e-4, -2e-4],
+            metrology: seen,
+            metrology_z: [500.0, 30.0, -20.0, -0.5, 0.1, 0.0],
+            target_orbit: [8.1e6, 10.0, 5.6e10, 0.5, 0.25],
+            // Body y, the boresight, along N x.
+            dcm_bc_n: [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+            nav_init: init,
+            ..model.inputs
+        };
+        model.do_step(f64::from(t - 1), 1.0, &mut Log::silent()).unwrap();
+        model
+    }
+
+    #[test]
+    fn every_port_of_the_filter_is_in_the_table() {
+        let rows = NavModel::table().rows();
+        for port in PORTS {
+            let row = rows.iter().find(|row| row.name == port.name);
+            let ours = matches!(port.role, Role::Sensor | Role::Estimate);
+            assert_eq!(row.is_some(), ours, "{}", port.name);
+            if let Some(row) = row {
+                assert_eq!(row.shape.count(), port.shape.len(), "{}", port.name);
+            }
+        }
+    }
+
+    #[test]
+    fn tunables_stand_last() {
+        let rows = NavModel::table().rows();
+        let of_a_law = |name: &str| FILTERS.iter().any(|f| name.starts_with(&format!("{}.", f.name)));
+        let first = rows.iter().position(|row| of_a_law(&row.name)).unwrap();
+        assert!(rows[first..].iter().all(|row| of_a_law(&row.name)));
+        let tunables: usize = FILTERS.iter().map(|f| f.tunables.len()).sum();
+        assert_eq!(rows.len() - first, tunables);
+    }
+
+    #[test]
+    fn inputs_start_at_what_a_truth_means_that_does_not_know_of_them() {
+        assert_eq!(started(1).inputs, Signals::default());
+    }
+
+    #[test]
+    fn outputs_show_the_estimate() {
+        let model = sampled(initialised(started(1)), 1);
+        let n = model.navigator.clone().unwrap();
+        let (estimate, innovation) = (n.estimate(), n.innovation());
+        let expected = [
+            ("est.time", 1.0),
+            ("est.r_tc_n[1]", estimate.x[0]),
+            ("est.v_tc_n[2]", estimate.x[4]),
+            ("est.a_t_n[3]", estimate.x[8]),
+            ("est.r_c_n[1]", estimate.x[9]),
+            ("est.v_c_n[2]", estimate.x[13]),
+            ("est.b_c_bc[3]", estimate.x[17]),
+            ("est.rho_lvlh[1]", 0.0),
+            ("nis", innovation.nis),
+            ("q.s[2]", n.s()[1]),
+            ("cov.sigma[1]", estimate.p_target[(0, 0)].sqrt()),
+            ("cov.sigma[18]", estimate.sigma[17]),
+            ("cov.p[1,4]", estimate.p_target[(0, 3)]),
+            ("cov.p[9,2]", estimate.p_target[(8, 1)]),
+            ("innov.range", innovation.residual[0]),
+            ("innov.azimuth", innovation.residual[1]),
+            ("innov.elevation", innovation.residual[2]),
+            ("innov.s[3]", innovation.variance[2]),
+            ("innov.rho[1]", 0.0),
+            ("innov.rho_s[1]", 0.0),
+        ];
+        for (name, value) in expected {
+            assert_eq!(real(&model, name).to_bits(), value.to_bits(), "{name}");
+        }
+        // Nearly along the boresight, half a kilometre away.
+        assert!((real(&model, "est.r_tc_n[1]") - 500.0).abs() < 20.0);
+        assert!(real(&model, "innov.range").abs() > 0.0 && real(&model, "cov.p[1,4]").abs() > 0.0);
+        let expected = [
+            ("est.count", 1),
+            ("est.dimension", 9),
+            ("nis.rows", 3),
+            ("status", Status::Tracking.number()),
+        ];
+        for (name, value) in expected {
+            assert_eq!(integer(&model, name), value, "{name}");
+        }
+    }
+
+    #[test]
+    fn outputs_show_the_formation() {
+        let model = sampled(initialised(started(3)), 1);
+        let n = model.navigator.clone().unwrap();
+        let (estimate, innovation) = (n.estimate(), n.innovation());
+        let expected = [
+            ("est.r_tc_n[1]", 0.0),
+            ("est.rho_lvlh[2]", estimate.x[1]),
+            ("est.rho_dot_lvlh[1]", estimate.x[3]),
+            ("est.d_lvlh[3]", estimate.x[8]),
+            ("innov.range", 0.0),
+            ("innov.rho[1]", innovation.residual[0]),
+            ("innov.rho_s[3]", innovation.variance[2]),
+            ("innov.rho_dot[2]", innovation.residual[4]),
+            ("innov.rho_dot_s[1]", innovation.variance[3]),
+        ];
+        for (name, value) in expected {
+            assert_eq!(real(&model, name).to_bits(), value.to_bits(), "{name}");
+        }
+        assert_eq!(integer(&model, "nis.rows"), 6);
+    }
+
+    #[test]
+    fn before_the_first_sample_nothing_is_claimed() {
+        let model = initialised(started(1));
+        assert_eq!(integer(&model, "status"), Status::Initialising.number());
+        assert_eq!(integer(&model, "nis.rows"), 0);
+        assert_eq!(integer(&started(1), "status"), Status::Initialising.number());
+    }
+
+    #[test]
+    fn a_mission_file_goes_before_the_scenario() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../missions/formation.toml");
+        let mut told = started(1);
+        told.choice.mission_file = path.to_string_lossy().into_owned();
+        let (told, same) = (sampled(initialised(told), 1), sampled(initialised(started(3)), 1));
+        assert_eq!(told.navigator.unwrap().estimate(), same.navigator.unwrap().estimate());
+    }
+
+    #[test]
+    fn a_mission_that_cannot_be_had_is_named() {
+        let experiment = Experiment {
+            start_time: 0.0,
+            stop_time: None,
+            tolerance: None,
+        };
+        for (scenario, file, part) in [(1, "nowhere/none.toml", "none.toml"), (9, "", "1 (leo_venting)")] {
+            let mut model = started(scenario);
+            model.choice.mission_file = file.to_owned();
+            let error = model
+                .initialise(&experiment, &mut Log::silent())
+                .unwrap_err()
+                .to_string();
+            assert!(error.contains(part), "{error}");
         }
     }
 }
