@@ -42,6 +42,22 @@ impl Default for Params {
 }
 
 impl Params {
+    /// Everything at its start but the scenario, counted from 1.
+    pub fn of_scenario(scenario: i32) -> Self {
+        let default = Self::default();
+        Self { scenario, ..default }
+    }
+
+    /// Everything at its start but the mission file.
+    pub fn of_file(path: impl Into<String>) -> Self {
+        let mission_file = path.into();
+        let default = Self::default();
+        Self {
+            mission_file,
+            ..default
+        }
+    }
+
     /// Value of an element of a row of [`PARAMETERS`]; its start where there is no such element.
     pub fn value(&self, row: usize, element: usize) -> f64 {
         let stored = self.values.get(row).and_then(|values| values.get(element));
