@@ -376,6 +376,7 @@ pub const PARAMETERS: &[Parameter] = &[
 #[allow(clippy::float_cmp)]
 mod tests {
     use super::*;
+    use interface::mission::Embedded;
 
     /// A mission with every sensor.
     fn mission() -> Mission {
