@@ -12,4 +12,4 @@ pub mod radio;
 mod view;
 
 pub use noise::normal3;
-pub use view::in_view;
+pub use view::View;
