@@ -350,7 +350,9 @@ impl Simulation {
 
     /// Takes the next sample at an instant `offset` seconds into the present interval and `elapsed` after the start of the run.
     fn take_sample(&mut self, elapsed: f64, offset: f64, instant: &Instant) {
-        if let Some(begin) = self.felt_from().filter(|_| offset > 0.0) {
+        // Another sensor's sample adds no point to the sum, so that readings do not know of it.
+        let due = offset > 0.0 && self.sensors.accelerometer_due(elapsed);
+        if let Some(begin) = self.felt_from().filter(|_| due) {
             self.feel(&instant.push, &begin, elapsed, &instant.state);
             self.felt.there = Some(instant.state);
         }

@@ -208,6 +208,17 @@ fn a_sensor_more_moves_no_other_draw() {
             assert_eq!(with, without, "without {left_out}");
         }
     }
+    // Nor do means know of a sensor that samples between their own samples.
+    let mean = |more: &str| {
+        let burn = "[[burn]]\nname = \"one\"\nstart_s = 3.3\nduration_s = 9.45\nacceleration_m_s2 = 0.02\ndirection = [0.3, 1, -0.2]\n";
+        let sensors = format!(
+            "[sensors.radio]\nperiod_s = 0.7\n{more}[sensors.accelerometer]\noutput = \"mean\"\nperiod_s = 0.7\n"
+        );
+        let mut run = File::new(&quiet(&format!("{burn}{sensors}"))).simulation();
+        advance(&mut run, 7.0);
+        run.sample().accelerometer
+    };
+    assert_eq!(mean(""), mean("[sensors.lidar]\nperiod_s = 0.3\n"));
     // No two share their faults.
     let lost = |seen: &SensorSample| [seen.lidar.valid, seen.radio.valid, seen.metrology.valid];
     let both = |a: usize, b: usize| all.iter().filter(|s| !lost(s)[a] && !lost(s)[b]).count();
