@@ -44,7 +44,10 @@ impl Craft {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Axes {
     Inertial,
-    Rotating { system: Cr3bpSystem, from: InertialAxes },
+    Rotating {
+        system: Cr3bpSystem,
+        inertial: InertialAxes,
+    },
 }
 
 impl Axes {
@@ -54,7 +57,7 @@ impl Axes {
         };
         Ok(Self::Rotating {
             system: Cr3bpSystem::new(p.mass_ratio, p.length_m, p.time_s)?,
-            from: InertialAxes {
+            inertial: InertialAxes {
                 angle_at_end: p.inertial_angle_at_end_rad,
                 end: mission.time.duration_s,
                 time: p.time_s,
@@ -66,15 +69,15 @@ impl Axes {
     pub(crate) fn dcm_n_i(&self, t: f64) -> Matrix3<f64> {
         match self {
             Self::Inertial => Matrix3::identity(),
-            Self::Rotating { from, .. } => from.dcm_n_i(t),
+            Self::Rotating { inertial, .. } => inertial.dcm_n_i(t),
         }
     }
 
-    /// Components in N of a vector that is fixed in inertial axes.
-    fn from_inertial(&self, t: f64, a: &Vector3<f64>) -> Vector3<f64> {
+    /// Components in N, at `t`, of a vector that is fixed in inertial axes.
+    fn held_in_n(&self, t: f64, a: &Vector3<f64>) -> Vector3<f64> {
         match self {
             Self::Inertial => *a,
-            Self::Rotating { from, .. } => from.dcm_n_i(t) * a,
+            Self::Rotating { inertial, .. } => inertial.dcm_n_i(t) * a,
         }
     }
 
@@ -90,9 +93,9 @@ impl Axes {
     pub(crate) fn at(&self, t: f64) -> AxesN {
         match self {
             Self::Inertial => AxesN::Inertial,
-            Self::Rotating { system, from } => AxesN::Rotating {
+            Self::Rotating { system, inertial } => AxesN::Rotating {
                 system: *system,
-                angle: from.angle(t),
+                angle: inertial.angle(t),
             },
         }
     }
@@ -235,7 +238,7 @@ impl World {
     pub(crate) fn push_over(&self, timeline: &Timeline, interval: u64) -> Push {
         let begin = interval as f64 * self.grid;
         let middle = begin + 0.5 * self.grid;
-        timeline.push_over(begin, self.grid, |a| self.axes.from_inertial(middle, a))
+        timeline.push_over(begin, self.grid, |a| self.axes.held_in_n(middle, a))
     }
 
     /// Goes on by a step of length `h`, s; negative: backwards.
