@@ -77,6 +77,20 @@ impl Models {
         })
     }
 
+    /// The truth of a world by itself, for a flight that nobody navigates.
+    ///
+    /// # Errors
+    /// What cannot be set or does not exist, with the names that do.
+    pub fn truth_alone(&self, world: &World, assignments: &[Assignment]) -> Result<Participant, StudyError> {
+        for a in assignments {
+            self.require(&a.model, &a.to_string())?;
+        }
+        Ok(StartValues::new(&self.truth)
+            .world(world)?
+            .assign(assignments)?
+            .named(TRUTH))
+    }
+
     /// The parts of a run: the truth, then each chosen filter, then the foreign ones.
     ///
     /// * `tuned`: sets from a search, beside the presets of the FMUs.
@@ -90,13 +104,7 @@ impl Models {
         tuned: &[TunedSet],
         assignments: &[Assignment],
     ) -> Result<(Participant, Vec<Participant>), StudyError> {
-        for a in assignments {
-            self.require(&a.model, &a.to_string())?;
-        }
-        let truth = StartValues::new(&self.truth)
-            .world(world)?
-            .assign(assignments)?
-            .named(TRUTH);
+        let truth = self.truth_alone(world, assignments)?;
         let mut filters = Vec::new();
         for choice in choices {
             let model = self.model_of(choice)?;

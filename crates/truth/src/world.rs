@@ -266,3 +266,6 @@ impl World {
         state
     }
 }
+
+#[cfg(test)]
+mod tests;

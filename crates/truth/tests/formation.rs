@@ -6,7 +6,7 @@ mod common;
 
 use astro::harmonics::EGM96;
 use astro::{ClohessyWiltshire, J2RelativeMotion, TargetOrbit, ZonalGravity, frames};
-use common::{numbered, of_scenario, samples, start, with};
+use common::{numbered, samples, start, with};
 use nalgebra::{SVector, Vector3};
 use truth::{Forces, Inputs, Moment, Params, Relative, Simulation, Vehicles};
 
@@ -14,7 +14,7 @@ use truth::{Forces, Inputs, Moment, Params, Relative, Simulation, Vehicles};
 const DURATION: u32 = 21_939;
 
 fn full() -> Params {
-    of_scenario(3)
+    Params::of_scenario(3)
 }
 
 fn j2_only() -> Params {
@@ -423,7 +423,7 @@ fn samples_do_not_depend_on_the_communication_step() {
 #[test]
 fn worlds_have_one_instrument_each() {
     for ordinal in [1, 2] {
-        let mut run = start(&of_scenario(ordinal));
+        let mut run = start(&Params::of_scenario(ordinal));
         run.advance_to(3.0, &Inputs::default()).unwrap();
         let sample = run.sample();
         assert!(sample.lidar.valid && !sample.metrology.valid);

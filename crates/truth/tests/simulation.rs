@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{advance, numbered, of_scenario, samples, start, with};
+use common::{advance, numbered, samples, start, with};
 use interface::mission::Embedded;
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -49,7 +49,7 @@ proptest! {
         start_time in prop_oneof![Just(0.0), Just(-17.25), Just(1e5)],
         scenario in scenario(),
     ) {
-        let params = with(&numbered(of_scenario(scenario), 3), &[("sample_period", period), ("vent.scale", 1e3)]);
+        let params = with(&numbered(Params::of_scenario(scenario), 3), &[("sample_period", period), ("vent.scale", 1e3)]);
         let inputs = shove();
         let mut coarse = Simulation::new(&params, start_time, &inputs).unwrap();
         // A vent, where there are any, begins among the steps.
@@ -84,7 +84,7 @@ proptest! {
         steps in prop::collection::vec(0.01..3.0_f64, 1..50),
         scenario in scenario(),
     ) {
-        let params = with(&of_scenario(scenario), &[("vent.scale", 1e3), ("lidar.dropout_probability", 0.3), ("metrology.dropout_probability", 0.3)]);
+        let params = with(&Params::of_scenario(scenario), &[("vent.scale", 1e3), ("lidar.dropout_probability", 0.3), ("metrology.dropout_probability", 0.3)]);
         let inputs = shove();
         let mut run = start(&params);
         // Stops inside an interval, whose inputs are latched.

@@ -68,7 +68,8 @@ impl World for Approach {
             dy.fixed_rows_mut::<3>(0).copy_from(&part(3));
             dy.fixed_rows_mut::<3>(3).copy_from(&gravity(&part(0), &part(3)));
             dy.fixed_rows_mut::<3>(6).copy_from(&part(9));
-            dy.fixed_rows_mut::<3>(9).copy_from(&(gravity(&part(6), &part(9)) + force));
+            dy.fixed_rows_mut::<3>(9)
+                .copy_from(&(gravity(&part(6), &part(9)) + force));
             dy
         });
         self.k += 1;
@@ -94,4 +95,3 @@ impl World for Approach {
         relative.fixed_resize(0.0)
     }
 }
-

@@ -37,7 +37,13 @@ fn world(mission: &str) -> (Box<dyn World>, State) {
         }
         "nrho_venting" => {
             let system = Cr3bpSystem::EARTH_MOON;
-            let unit = |i: usize| if i < 3 { system.length } else { system.length / system.time };
+            let unit = |i: usize| {
+                if i < 3 {
+                    system.length
+                } else {
+                    system.length / system.time
+                }
+            };
             let chaser = Vector6::new(0.9879, 1.432e-2, 2.009e-3, 7.173e-2, 0.9238, -0.8528);
             let chaser = Vector6::from_fn(|i, _| chaser[i] * unit(i));
             let (world, start) = Approach::new(|r, v| Cr3bpSystem::EARTH_MOON.acceleration(r, v), &chaser, [9.0, 2e-8]);

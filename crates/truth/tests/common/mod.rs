@@ -9,13 +9,6 @@ use interface::mission::Embedded;
 use nalgebra::Vector3;
 use truth::{Inputs, Params, SensorSample, Simulation};
 
-/// Parameters at their start for an item of the `scenario` enumeration.
-pub fn of_scenario(ordinal: i32) -> Params {
-    let mut params = Params::default();
-    params.choice.scenario = ordinal;
-    params
-}
-
 /// The same parameters for another run.
 pub fn numbered(mut params: Params, run: u32) -> Params {
     params.run = run;
@@ -51,9 +44,7 @@ impl File {
     }
 
     pub fn params(&self) -> Params {
-        let mut params = Params::default();
-        params.choice.mission_file = self.folder.path().join("mission.toml").display().to_string();
-        params
+        Params::of_file(self.folder.path().join("mission.toml").display().to_string())
     }
 
     pub fn simulation(&self) -> Simulation {

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use cosim::{RunOptions, StepContext, System};
 use nalgebra::Vector3;
-use study::{Models, Plan, StudyError, World};
+use study::{Assignment, Models, Plan, StudyError, World};
 
 use crate::HarnessError;
 
@@ -75,14 +75,10 @@ pub(super) fn fly(models: &Models, plan: &Plan, world: &World, run: u32) -> Resu
     let quiet = QUIET
         .iter()
         .filter_map(|name| format!("fmu-truth.{name}=0").parse().ok());
-    let plan = Plan {
-        filters: Some(Vec::new()),
-        assignments: plan.in_fmus().cloned().chain(quiet).collect(),
-        ..plan.clone()
-    };
-    let spec = models.spec(&plan, world)?;
+    let assignments: Vec<Assignment> = plan.in_fmus().cloned().chain(quiet).collect();
+    let participant = models.truth_alone(world, &assignments)?;
     let mut system = System::new();
-    let truth = study::seat(&mut system, &spec.truth, spec.seed, run)?;
+    let truth = study::seat(&mut system, &participant, plan.seed, run)?;
     let failed = |source| HarnessError::from(StudyError::from(source));
     let mut probe = system.probe(truth).map_err(failed)?;
     let mut vector = |name: &str| probe.vec3(name).map_err(failed);
@@ -102,7 +98,7 @@ pub(super) fn fly(models: &Models, plan: &Plan, world: &World, run: u32) -> Resu
     let mut sample = probe.sample();
     let options = RunOptions {
         stop: world.duration_s,
-        step: spec.step,
+        step: world.sample_period_s,
         ..RunOptions::default()
     };
     let mut flight = Flight::default();
