@@ -208,7 +208,7 @@ fn told_burns_are_told_to_the_filter_and_fly_alike() {
             "[[burn]]\nvehicle = \"target\"\nname = \"b\"\nstart_s = 100.0\nduration_s = 3.0\nacceleration_m_s2 = 0.01\ndirection = [0, 1, 0]\ntold = {told}"
         );
         let file = File::new(&quiet(&format!("{burn}\n{RADIO}")));
-        let mission = interface::mission::Mission::read(file.params().mission_file.as_ref()).unwrap();
+        let mission = interface::mission::Mission::read(file.params().choice.mission_file.as_ref()).unwrap();
         let mut run = file.simulation();
         advance(&mut run, 200.0);
         (mission.navigation().told.len(), *run.now(), *run.sample())
@@ -355,7 +355,7 @@ fn cut_in_half(text: &str, grid: f64) -> f64 {
     assert!(text.contains(&key(grid)));
     let half = text.replacen(&key(grid), &key(grid / 2.0), 1);
     let (coarse, fine) = (File::new(text), File::new(&half));
-    let duration = interface::mission::Mission::read(coarse.params().mission_file.as_ref())
+    let duration = interface::mission::Mission::read(coarse.params().choice.mission_file.as_ref())
         .unwrap()
         .time
         .duration_s;
