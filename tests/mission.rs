@@ -210,3 +210,36 @@ fn an_fmu_packed_with_a_mission_runs_it_and_is_another_fmu() {
         "shipped by name"
     );
 }
+
+#[test]
+fn both_fmus_refuse_a_mission_with_the_same_words_in_their_logs() {
+    use fmi2_import::{Experiment, Fmu};
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("wrong.toml");
+    let leo = std::fs::read_to_string(root().join("missions/leo_venting.toml")).unwrap();
+    std::fs::write(&file, leo.replace("grid_s = 1.0", "grid = 1.0")).unwrap();
+    let shown = refused(&["mission", "check", text(&file)]);
+    let said = shown.trim().trim_start_matches("error: ");
+    for name in ["fmu-truth", "fmu-nav"] {
+        let fmu = Fmu::open(&fmu(name)).unwrap();
+        let mut instance = fmu.instantiate(name, false).unwrap();
+        let reference = fmu.description().variable("mission_file").unwrap().value_reference;
+        instance.set_string(&[reference], &[text(&file)]).unwrap();
+        let experiment = Experiment {
+            start_time: 0.0,
+            stop_time: None,
+            tolerance: None,
+        };
+        instance.setup_experiment(&experiment).unwrap();
+        let error = instance.enter_initialization().unwrap_err().to_string();
+        let log: Vec<String> = instance.messages().iter().map(|m| m.text.clone()).collect();
+        assert!(
+            error.contains(said) || log.iter().any(|line| line.contains(said)),
+            "{said} / {error} / {log:?}"
+        );
+        // A reset brings it back.
+        instance.reset().unwrap();
+        instance.setup_experiment(&experiment).unwrap();
+        instance.enter_initialization().unwrap();
+    }
+}
