@@ -181,8 +181,8 @@ fn an_fmu_packed_with_a_mission_runs_it_and_is_another_fmu() {
         true,
     )
     .unwrap();
-    let packed = Fmu::open(&folder.path().join("fmu-truth.fmu")).unwrap();
-    let plain = Fmu::open(&fmu("fmu-truth")).unwrap();
+    let packed = Fmu::open(folder.path().join("fmu-truth.fmu")).unwrap();
+    let plain = Fmu::open(fmu("fmu-truth")).unwrap();
     assert_ne!(packed.description().guid, plain.description().guid);
     let range = |fmu: &Fmu, mission_file: Option<&str>| {
         let mut instance = fmu.instantiate("truth", false).unwrap();
@@ -221,7 +221,7 @@ fn both_fmus_refuse_a_mission_with_the_same_words_in_their_logs() {
     let shown = refused(&["mission", "check", text(&file)]);
     let said = shown.trim().trim_start_matches("error: ");
     for name in ["fmu-truth", "fmu-nav"] {
-        let fmu = Fmu::open(&fmu(name)).unwrap();
+        let fmu = Fmu::open(fmu(name)).unwrap();
         let mut instance = fmu.instantiate(name, false).unwrap();
         let reference = fmu.description().variable("mission_file").unwrap().value_reference;
         instance.set_string(&[reference], &[text(&file)]).unwrap();
