@@ -1,9 +1,8 @@
 //! Two vehicles in the gravity of a mission, seen by LiDAR; the chaser thrusts for ten seconds.
 
 use super::formation::World;
-use astro::TargetOrbit;
-use filters::Sample;
 use filters::state::State;
+use filters::{Reading, Sample, SpecificForce};
 use nalgebra::{SVector, Vector3, Vector6};
 use numerics::{Generator, Source, rk4, stream};
 use rand_distr::{Distribution, StandardNormal};
@@ -68,7 +67,8 @@ impl World for Approach {
             dy.fixed_rows_mut::<3>(0).copy_from(&part(3));
             dy.fixed_rows_mut::<3>(3).copy_from(&gravity(&part(0), &part(3)));
             dy.fixed_rows_mut::<3>(6).copy_from(&part(9));
-            dy.fixed_rows_mut::<3>(9).copy_from(&(gravity(&part(6), &part(9)) + force));
+            dy.fixed_rows_mut::<3>(9)
+                .copy_from(&(gravity(&part(6), &part(9)) + force));
             dy
         });
         self.k += 1;
@@ -79,13 +79,10 @@ impl World for Approach {
         let lidar = sensors::lidar::measure(&(astro::frames::lidar_from_body() * dcm_bc_n * r_tc)) + noise;
         let alpha_c_bc = dcm_bc_n * self.force() + BIAS + self.normal() * 3.4e-6;
         Sample {
-            count: self.k,
-            time: f64::from(self.k),
-            lidar: Some(lidar),
-            metrology: None,
-            target_orbit: TargetOrbit::from_vector(&Vector6::zeros()),
-            alpha_c_bc,
+            lidar: Reading::Seen(lidar),
+            accelerometer: Some(SpecificForce::Instant(alpha_c_bc)),
             dcm_bc_n,
+            ..Sample::blank(self.k, f64::from(self.k))
         }
     }
 
@@ -94,4 +91,3 @@ impl World for Approach {
         relative.fixed_resize(0.0)
     }
 }
-

@@ -5,12 +5,12 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
 
-#[path = "../formation/mod.rs"]
-mod formation;
-#[path = "../common/mod.rs"]
-mod common;
 mod approach;
 mod cast;
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../formation/mod.rs"]
+mod formation;
 
 use std::fmt::Write;
 use std::path::Path;
