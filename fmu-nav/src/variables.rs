@@ -1,14 +1,18 @@
 //! Everything a master can see of the filter: one table, from which the model description is written too.
 //!
-//! Names, units and meanings that outside programs rely on are fixed; more may be added, in front of nothing.
+//! Names, units and meanings that outside programs rely on are fixed; more may be added. What belongs to one law stands last,
+//! so that another law changes no other row.
 
-use crate::model::NavModel;
-use astro::TargetOrbit;
+use crate::beliefs::{BELIEFS, Belief, Place};
+use crate::slave::NavModel;
 use filters::laws::FILTERS;
-use filters::scenarios::{Measures, SCENARIOS};
-use filters::tunable::{Bound, Kind, Tunable, Value};
-use filters::{Beliefs, Navigator, Settings, Status};
+use filters::tunable::{Kind, Tunable, Value};
+use filters::{Beliefs, Navigator, Sensor};
 use fmi2_export::{Real, Row, Table, TableBuilder};
+use interface::mission::{Embedded, Frame};
+use interface::ports::{Port, Role, Shape, of};
+use interface::signals::{Slot, slots};
+use interface::{Bound, Signals, Status};
 
 type Builder = TableBuilder<NavModel>;
 
@@ -17,39 +21,34 @@ pub fn table() -> Table<NavModel> {
     let mut t = Builder::new();
     types(&mut t);
     study(&mut t);
-    beliefs(&mut t);
+    for belief in BELIEFS {
+        belief_row(&mut t, belief);
+    }
+    for (port, slot) in slots() {
+        input_row(&mut t, port, slot);
+    }
+    for (port, shown) in estimates() {
+        estimate_row(&mut t, port, shown);
+    }
     for (f, filter) in FILTERS.iter().enumerate() {
         for (i, tunable) in filter.tunables.iter().enumerate() {
             tunable_row(&mut t, filter.name, tunable, f, i);
         }
     }
-    inputs(&mut t);
-    outputs(&mut t);
-    locals(&mut t);
     t.build()
 }
 
 fn types(t: &mut Builder) {
-    t.enumeration_type(
-        "Scenario",
-        "world that the filter believes in",
-        SCENARIOS.iter().map(|s| (s.name, s.about)),
-    );
+    t.enumeration_type("Scenario", "mission that comes with the FMU", scenarios());
     t.enumeration_type(
         "Filter",
         "registered filters",
         FILTERS.iter().map(|f| (f.name, f.about)),
     );
-    let about = [
-        "no sample yet",
-        "newest sample used",
-        "newest sample had no measurement of the target",
-        "innovations far too large",
-    ];
     t.enumeration_type(
         "Status",
         "what the filter is doing",
-        Status::ALL.iter().zip(about).map(|((_, n), a)| (*n, a)),
+        Status::ALL.iter().map(|(_, name, about)| (*name, *about)),
     );
     let mut known = Vec::new();
     for tunable in FILTERS.iter().flat_map(|f| f.tunables) {
@@ -62,15 +61,22 @@ fn types(t: &mut Builder) {
     }
 }
 
+/// Names and meanings of the scenarios.
+fn scenarios() -> impl Iterator<Item = (&'static str, String)> {
+    Embedded::scenarios().map(|entry| (entry.name, entry.mission().map(|m| m.about).unwrap_or_default()))
+}
+
 fn study(t: &mut Builder) {
     t.enumeration("scenario", "Scenario")
         .parameter()
         .start(1)
-        .about("chooses dynamics, state and the defaults of parameters left at -1")
-        .rw(
-            |m| m.settings.scenario as i32 + 1,
-            |m, v| m.settings.scenario = index(v),
-        );
+        .about("which of the missions that come with the FMU the filter is told of: dynamics, state, and every parameter at -1")
+        .rw(|m| m.choice.scenario, |m, v| m.choice.scenario = v);
+    t.string("mission_file")
+        .parameter()
+        .start("")
+        .about("path of a mission file, or name of one in the FMU's resources/missions, which then stands for the scenario; empty: none")
+        .rw(|m| m.choice.mission_file.clone(), |m, v| m.choice.mission_file = v);
     t.enumeration("filter", "Filter")
         .parameter()
         .start(1)
@@ -101,14 +107,7 @@ fn index(item: i32) -> usize {
     usize::try_from(item - 1).unwrap_or_default()
 }
 
-type Field = fn(&mut Beliefs) -> &mut f64;
-
-/// Reads through the same accessor that writes, so that a row names its field once.
-fn read(settings: &Settings, field: Field) -> f64 {
-    *field(&mut settings.beliefs.clone())
-}
-
-/// A real parameter; `None` as start means "the scenario's own", shown as -1.
+/// A real parameter; `None` as start means "the mission's own", shown as -1.
 fn real_parameter<'t>(
     t: &'t mut Builder,
     name: &str,
@@ -125,191 +124,50 @@ fn real_parameter<'t>(
     };
     row = match bound {
         Bound::Positive => row.positive(),
+        Bound::AtLeast(least) => row.min(least),
         Bound::NonNegative => row.min(0.0),
         Bound::Fraction => row.min(0.0).max(1.0),
         Bound::Any => row,
     };
     match start {
         Some(start) => row.start(start).about(about),
-        None => row.own_default().about(format!("{about}; -1: the scenario's own")),
+        None => row.own_default().about(format!("{about}; -1: the mission's own")),
     }
 }
 
-fn belief(t: &mut Builder, name: &str, unit: &str, bound: Bound, about: &str, field: Field) {
-    let start = *field(&mut Beliefs::default());
-    let start = (start != Beliefs::OWN).then_some(start);
-    real_parameter(t, name, unit, bound, start, about).rw(
-        move |m| read(&m.settings, field),
-        move |m, v| *field(&mut m.settings.beliefs) = v,
-    );
-}
-
-fn beliefs(t: &mut Builder) {
-    use Bound::{Any, NonNegative, Positive};
-    let one =
-        "initial standard deviation (where the relative state is measured in full, of that; else of one vehicle's)";
-    belief(
-        t,
-        "p0.sigma_position",
-        "m",
-        Positive,
-        &format!("{one} position, per axis"),
-        |b| &mut b.p0_sigma_position,
-    );
-    belief(
-        t,
-        "p0.sigma_velocity",
-        "m/s",
-        Positive,
-        &format!("{one} velocity, per axis"),
-        |b| &mut b.p0_sigma_velocity,
-    );
-    belief(
-        t,
-        "p0.sigma_acceleration",
-        "m/s2",
-        Positive,
-        "initial standard deviation of the unmodelled acceleration, per axis",
-        |b| &mut b.p0_sigma_acceleration,
-    );
-    belief(
-        t,
-        "p0.sigma_bias",
-        "m/s2",
-        Positive,
-        "initial standard deviation of the accelerometer bias, per axis",
-        |b| &mut b.p0_sigma_bias,
-    );
-    belief(
-        t,
-        "chaser.q_c",
-        "m2/s3",
-        NonNegative,
-        "white acceleration density of the chaser, per axis",
-        |b| &mut b.chaser_q_c,
-    );
-    t.boolean("chaser.q_coupled")
-        .parameter()
-        .start(Beliefs::default().chaser_q_coupled)
-        .about("whether the chaser's process noise also enters v_tc, with opposite sign")
-        .rw(
-            |m| m.settings.beliefs.chaser_q_coupled,
-            |m, v| m.settings.beliefs.chaser_q_coupled = v,
-        );
-    let gate = "readings of at least this norm drive the propagation, those below observe the bias";
-    belief(t, "accelerometer.gate", "m/s2", NonNegative, gate, |b| {
-        &mut b.accelerometer_gate
-    });
-    belief(
-        t,
-        "accelerometer.beta",
-        "1/s",
-        NonNegative,
-        "inverse time constant of the accelerometer bias",
-        |b| &mut b.accelerometer_beta,
-    );
-    belief(
-        t,
-        "accelerometer.bias_sigma",
-        "m/s2",
-        NonNegative,
-        "standard deviation of the bias walk per 1 s",
-        |b| &mut b.accelerometer_bias_sigma,
-    );
-    belief(
-        t,
-        "r.sigma_range",
-        "m",
-        Positive,
-        "standard deviation of the range",
-        |b| &mut b.r_sigma_range,
-    );
-    belief(
-        t,
-        "r.sigma_angle",
-        "rad",
-        Positive,
-        "standard deviation of azimuth and elevation",
-        |b| &mut b.r_sigma_angle,
-    );
-    belief(
-        t,
-        "r.sigma_accelerometer",
-        "m/s2",
-        Positive,
-        "standard deviation of an accelerometer sample, per axis",
-        |b| &mut b.r_sigma_accelerometer,
-    );
-    belief(
-        t,
-        "r.sigma_position",
-        "m",
-        Positive,
-        "standard deviation of a relative position in LVLH, per axis",
-        |b| &mut b.r_sigma_position,
-    );
-    belief(
-        t,
-        "r.sigma_velocity",
-        "m/s",
-        Positive,
-        "standard deviation of a relative velocity in LVLH, per axis",
-        |b| &mut b.r_sigma_velocity,
-    );
-    belief(
-        t,
-        "reference_orbit.semi_major_axis",
-        "m",
-        Positive,
-        "of the circular orbit that the Clohessy-Wiltshire equations are written about",
-        |b| &mut b.reference_orbit_semi_major_axis,
-    );
-    let off_nominal = "factor on the process noise of the filter (that it starts from, if it adapts) or on its constant gain, for studies of mistuning";
-    belief(t, "off_nominal", "1", Positive, off_nominal, |b| &mut b.off_nominal);
-    belief(
-        t,
-        "gravity.mu",
-        "m3/s2",
-        Positive,
-        "gravitational parameter of the Earth",
-        |b| &mut b.gravity_mu,
-    );
-    belief(
-        t,
-        "gravity.radius",
-        "m",
-        Positive,
-        "reference radius of the zonal harmonics",
-        |b| &mut b.gravity_radius,
-    );
-    belief(t, "gravity.j2", "1", Any, "second zonal harmonic", |b| {
-        &mut b.gravity_j[0]
-    });
-    belief(t, "gravity.j3", "1", Any, "third zonal harmonic", |b| {
-        &mut b.gravity_j[1]
-    });
-    belief(t, "gravity.j4", "1", Any, "fourth zonal harmonic", |b| {
-        &mut b.gravity_j[2]
-    });
-    belief(
-        t,
-        "gravity.mass_ratio",
-        "1",
-        Positive,
-        "mass ratio of the three-body problem",
-        |b| &mut b.gravity_mass_ratio,
-    );
-    let diverged = "the filter calls itself diverged when the running mean of NIS over its rows exceeds this";
-    belief(t, "divergence.nis", "1", Positive, diverged, |b| &mut b.divergence_nis);
-    t.integer("divergence.samples")
-        .parameter()
-        .min(1)
-        .start(Beliefs::default().divergence_samples)
-        .about("time constant of that running mean, samples")
-        .rw(
-            |m| m.settings.beliefs.divergence_samples,
-            |m, v| m.settings.beliefs.divergence_samples = v,
-        );
+fn belief_row(t: &mut Builder, belief: &'static Belief) {
+    let Belief {
+        name,
+        unit,
+        bound,
+        own,
+        about,
+        place,
+    } = *belief;
+    let mut start = Beliefs::default();
+    match place {
+        Place::Real(at) => {
+            let start = (!own).then(|| *at(&mut start));
+            real_parameter(t, name, unit, bound, start, about).rw(
+                move |m| *at(&mut m.settings.beliefs.clone()),
+                move |m, v| *at(&mut m.settings.beliefs) = v,
+            );
+        }
+        Place::Integer(at) => {
+            let mut row = t.integer(name).parameter().start(*at(&mut start)).about(about);
+            if let Bound::AtLeast(least) = bound {
+                row = row.min(least as i32);
+            }
+            row.rw(
+                move |m| *at(&mut m.settings.beliefs.clone()),
+                move |m, v| *at(&mut m.settings.beliefs) = v,
+            );
+        }
+        Place::Boolean(at) => t.boolean(name).parameter().start(*at(&mut start)).about(about).rw(
+            move |m| *at(&mut m.settings.beliefs.clone()),
+            move |m, v| *at(&mut m.settings.beliefs) = v,
+        ),
+    }
 }
 
 /// The accessors of one tunable's value, stored in the variant that its kind calls for; a restored state may hold less.
@@ -334,7 +192,7 @@ fn tunable_row(t: &mut Builder, filter: &str, tunable: &Tunable, f: usize, i: us
     match tunable.kind {
         Kind::Real { start, unit, bound } => {
             let (get, set) = stored!(f, i, Real, 0.0);
-            real_parameter(t, &name, unit, bound, start, tunable.about).rw(get, set);
+            real_parameter(t, &name, unit, bound, start.fixed(), tunable.about).rw(get, set);
         }
         Kind::Integer { start, min, max } => {
             let (get, set) = stored!(f, i, Integer, 0);
@@ -365,298 +223,346 @@ fn tunable_row(t: &mut Builder, filter: &str, tunable: &Tunable, f: usize, i: us
     }
 }
 
-const AXES: [&str; 3] = ["x", "y", "z"];
-const POSITION_AND_VELOCITY: [&str; 2] = ["m", "m/s"];
-const STATES: [&str; 6] = ["r_tc", "v_tc", "a_t", "r_c", "v_c", "b_c"];
-const STATE_UNITS: [&str; 6] = ["m", "m/s", "m/s2", "m", "m/s", "m/s2"];
-
-fn state_label(i: usize) -> String {
-    format!("{} {}", STATES[i / 3], AXES[i % 3])
+/// Unit of every element of a port.
+fn with_unit<'t>(row: Row<'t, NavModel, Real>, port: &'static Port) -> Row<'t, NavModel, Real> {
+    if port.unit(0) == "rad" {
+        row.unit("rad").display_unit("deg")
+    } else {
+        row.unit_by(|i| port.unit(i))
+    }
 }
 
-fn inputs(t: &mut Builder) {
-    t.real("sample_time")
-        .input()
-        .discrete()
-        .unit("s")
-        .about("epoch of the newest sensor sample")
-        .rw(|m| m.inputs.sample_time, |m, v| m.inputs.sample_time = v);
-    t.integer("sample_count")
-        .input()
-        .about("ordinal of the newest sensor sample; 0 before the first; a sample is used once")
-        .rw(|m| m.inputs.sample_count, |m, v| m.inputs.sample_count = v);
-    t.boolean("lidar.valid")
-        .input()
-        .about("whether the sample holds a LiDAR measurement")
-        .rw(|m| m.inputs.lidar_valid, |m, v| m.inputs.lidar_valid = v);
-    t.real("lidar.range")
-        .input()
-        .discrete()
-        .unit("m")
-        .about("measured range")
-        .rw(|m| m.inputs.lidar.x, |m, v| m.inputs.lidar.x = v);
-    t.real("lidar.azimuth")
-        .input()
-        .discrete()
-        .unit("rad")
-        .display_unit("deg")
-        .about("measured atan(rho_x / rho_z), LiDAR axes")
-        .rw(|m| m.inputs.lidar.y, |m, v| m.inputs.lidar.y = v);
-    t.real("lidar.elevation")
-        .input()
-        .discrete()
-        .unit("rad")
-        .display_unit("deg")
-        .about("measured atan(rho_y / rho_z), LiDAR axes")
-        .rw(|m| m.inputs.lidar.z, |m, v| m.inputs.lidar.z = v);
-    t.boolean("metrology.valid")
-        .input()
-        .about("whether the sample holds a measured relative state")
-        .rw(|m| m.inputs.metrology_valid, |m, v| m.inputs.metrology_valid = v);
-    for (block, (name, about)) in [
-        (
-            "metrology.rho_lvlh",
-            "measured position of the chaser relative to the target, LVLH",
-        ),
-        (
-            "metrology.rho_dot_lvlh",
-            "measured velocity of the chaser relative to the target, LVLH",
-        ),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        t.real(name)
+/// An input, which starts at what a truth means that does not know of it.
+fn input_row(t: &mut Builder, port: &'static Port, slot: Slot) {
+    match slot {
+        Slot::Integer(get, set) => t
+            .integer(port.name)
             .input()
-            .discrete()
-            .unit(POSITION_AND_VELOCITY[block])
-            .about_by(move |i| format!("{about} {}", AXES[i]))
-            .vector_rw(
-                3,
-                move |m, i| m.inputs.metrology[3 * block + i],
-                move |m, i, v| m.inputs.metrology[3 * block + i] = v,
-            );
+            .start(get(&Signals::default()))
+            .about(port.about(0))
+            .rw(move |m| get(&m.inputs), move |m, v| set(&mut m.inputs, v)),
+        Slot::Boolean(get, set) => t
+            .boolean(port.name)
+            .input()
+            .start(get(&Signals::default()))
+            .about(port.about(0))
+            .rw(move |m| get(&m.inputs), move |m, v| set(&mut m.inputs, v)),
+        Slot::Real(get, get_mut) => {
+            let row = with_unit(t.real(port.name).input().discrete(), port)
+                .start_by(move |i| get(&Signals::default())[i])
+                .about_by(|i| port.about(i).to_owned());
+            match port.shape {
+                Shape::Scalar => row.rw(move |m| get(&m.inputs)[0], move |m, v| get_mut(&mut m.inputs)[0] = v),
+                Shape::Vector(n) => row.vector_rw(
+                    n,
+                    move |m, i| get(&m.inputs)[i],
+                    move |m, i, v| get_mut(&mut m.inputs)[i] = v,
+                ),
+                Shape::Matrix(rows, columns) => row.matrix_rw(
+                    rows,
+                    columns,
+                    move |m, i, j| get(&m.inputs)[columns * i + j],
+                    move |m, i, j, v| get_mut(&mut m.inputs)[columns * i + j] = v,
+                ),
+            }
+        }
     }
-    type Element = fn(&mut TargetOrbit) -> &mut f64;
-    let orbit: [(&str, &str, &str, Element); 5] = [
-        ("r", "m", "geocentric distance", |o| &mut o.r),
-        ("r_dot", "m/s", "rate of the geocentric distance", |o| &mut o.r_dot),
-        ("h", "m2/s", "angular momentum per unit mass", |o| &mut o.h),
-        ("inclination", "rad", "inclination", |o| &mut o.inclination),
-        ("argument_of_latitude", "rad", "angle from the ascending node", |o| {
-            &mut o.argument_of_latitude
+}
+
+/// How a port of the estimate is read from a running filter; elements count from 0, matrices go row by row.
+enum Shown {
+    Real(fn(&Navigator, usize) -> f64),
+    Integer(fn(&Navigator) -> i32),
+    Boolean(fn(&Navigator) -> bool),
+    /// The status, which has a value before the filter runs.
+    Status,
+}
+
+/// Every port of the estimate with its reader.
+fn estimates() -> impl Iterator<Item = (&'static Port, Shown)> {
+    of(Role::Estimate).filter_map(|port| Some((port, shown(port)?)))
+}
+
+fn shown(port: &Port) -> Option<Shown> {
+    use Sensor::{Camera, Lidar, Metrology, Radio};
+    use Shown::{Boolean, Integer, Real, Status};
+    Some(match port.name {
+        "est.time" => Real(|n, _| n.estimate().time),
+        "est.count" => Integer(|n| n.estimate().count),
+        "est.dimension" => Integer(|n| n.dimension() as i32),
+        "est.r_tc_n" => Real(|n, i| inertial(n, n.estimate().x[i])),
+        "est.v_tc_n" => Real(|n, i| inertial(n, n.estimate().x[3 + i])),
+        "est.a_t_n" => Real(|n, i| inertial(n, n.estimate().x[6 + i])),
+        "est.r_c_n" => Real(|n, i| inertial(n, n.estimate().x[9 + i])),
+        "est.v_c_n" => Real(|n, i| inertial(n, n.estimate().x[12 + i])),
+        "est.b_c_bc" => Real(|n, i| inertial(n, n.estimate().x[15 + i])),
+        "est.rho_lvlh" => Real(|n, i| lvlh(n, n.estimate().x[i])),
+        "est.rho_dot_lvlh" => Real(|n, i| lvlh(n, n.estimate().x[3 + i])),
+        "est.d_lvlh" => Real(|n, i| lvlh(n, n.estimate().x[6 + i])),
+        "est.acceleration_valid" => Boolean(Navigator::estimates_acceleration),
+        "nis" => Real(|n, _| n.innovation().nis),
+        // None before the first measurement, and none of which there is a covariance under a constant gain.
+        "nis.rows" => Integer(|n| {
+            if n.dimension() > 0 {
+                n.innovation().rows as i32
+            } else {
+                0
+            }
         }),
-    ];
-    for (name, unit, about, element) in orbit {
-        let mut row = t
-            .real(format!("target_orbit.{name}"))
-            .input()
-            .discrete()
-            .unit(unit)
-            .about(format!("orbit of the target at the sample, as known on board: {about}"));
-        if unit == "rad" {
-            row = row.display_unit("deg");
-        }
-        row.rw(
-            move |m| *element(&mut m.inputs.target_orbit.clone()),
-            move |m, v| *element(&mut m.inputs.target_orbit) = v,
-        );
-    }
-    t.real("accelerometer.alpha_c_bc")
-        .input()
-        .discrete()
-        .unit("m/s2")
-        .about_by(|i| format!("accelerometer reading, chaser body {}", AXES[i]))
-        .vector_rw(3, |m, i| m.inputs.alpha_c_bc[i], |m, i, v| m.inputs.alpha_c_bc[i] = v);
-    t.real("dcm_bc_n")
-        .input()
-        .discrete()
-        .unit("1")
-        .about("direction cosine matrix, axes N to chaser body")
-        .start_by(|i| if i % 4 == 0 { 1.0 } else { 0.0 })
-        .matrix_rw(
-            3,
-            3,
-            |m, i, j| m.inputs.dcm_bc_n[(i, j)],
-            |m, i, j, v| m.inputs.dcm_bc_n[(i, j)] = v,
-        );
-    t.real("nav_init.x")
-        .input()
-        .discrete()
-        .unit_by(|i| STATE_UNITS[i / 3])
-        .about_by(|i| format!("initial estimate of {}, read with the first sample", state_label(i)))
-        .vector_rw(18, |m, i| m.inputs.nav_init[i], |m, i, v| m.inputs.nav_init[i] = v);
+        "q.s" => Real(|n, i| n.s()[i]),
+        "q.updates" => Integer(Navigator::updates),
+        "q.skipped" => Integer(Navigator::skipped),
+        "q.unsolved" => Integer(Navigator::unsolved),
+        "status" => Status,
+        "cov.sigma" => Real(|n, i| n.estimate().sigma[i]),
+        "cov.p" => Real(|n, i| n.estimate().p_target[(i / 9, i % 9)]),
+        "innov.range" => Real(|n, _| n.innovation().residual[channel(Lidar)]),
+        "innov.azimuth" => Real(|n, _| n.innovation().residual[channel(Lidar) + 1]),
+        "innov.elevation" => Real(|n, _| n.innovation().residual[channel(Lidar) + 2]),
+        "innov.s" => Real(|n, i| n.innovation().variance[channel(Lidar) + i]),
+        "innov.rho" => Real(|n, i| n.innovation().residual[channel(Metrology) + i]),
+        "innov.rho_s" => Real(|n, i| n.innovation().variance[channel(Metrology) + i]),
+        "innov.rho_dot" => Real(|n, i| n.innovation().residual[channel(Metrology) + 3 + i]),
+        "innov.rho_dot_s" => Real(|n, i| n.innovation().variance[channel(Metrology) + 3 + i]),
+        "innov.camera" => Real(|n, i| n.innovation().residual[channel(Camera) + i]),
+        "innov.camera_s" => Real(|n, i| n.innovation().variance[channel(Camera) + i]),
+        "innov.radio" => Real(|n, i| n.innovation().residual[channel(Radio) + i]),
+        "innov.radio_s" => Real(|n, i| n.innovation().variance[channel(Radio) + i]),
+        _ => return None,
+    })
 }
 
-/// `value` where the filter's world measures this, else 0.
-fn of(navigator: &Navigator, measures: Measures, value: f64) -> f64 {
-    if navigator.measures() == measures { value } else { 0.0 }
+/// First place of a sensor in an innovation.
+fn channel(sensor: Sensor) -> usize {
+    sensor.channels().start
 }
 
-fn outputs(t: &mut Builder) {
-    t.real("est.time")
-        .output()
-        .discrete()
-        .unit("s")
-        .about("epoch of the sample last used")
-        .get(|m| m.read(|n| n.estimate().time));
-    t.integer("est.count")
-        .output()
-        .about("ordinal of the sample last used")
-        .get(|m| m.read(|n| n.estimate().count));
-    t.integer("est.dimension")
-        .output()
-        .about("states with a covariance: relative position and velocity, and acceleration where it is estimated")
-        .get(|m| m.read(|n| n.dimension() as i32));
-    let inertial: [(&str, &str); 6] = [
-        ("est.r_tc_n", "target relative to chaser, position, axes N"),
-        ("est.v_tc_n", "target relative to chaser, velocity, axes N"),
-        ("est.a_t_n", "unmodelled acceleration of the target, axes N"),
-        ("est.r_c_n", "chaser position (consider state), axes N"),
-        ("est.v_c_n", "chaser velocity (consider state), axes N"),
-        ("est.b_c_bc", "accelerometer bias, chaser body axes"),
-    ];
-    let lvlh: [(&str, &str); 3] = [
-        (
-            "est.rho_lvlh",
-            "chaser relative to target, position, LVLH of the target",
-        ),
-        (
-            "est.rho_dot_lvlh",
-            "chaser relative to target, velocity, LVLH of the target",
-        ),
-        (
-            "est.d_lvlh",
-            "acceleration that Clohessy-Wiltshire leaves out, LVLH of the target",
-        ),
-    ];
-    for (measures, parts) in [
-        (Measures::RangeAndBearing, inertial.as_slice()),
-        (Measures::RelativeState, lvlh.as_slice()),
-    ] {
-        for (block, &(name, about)) in parts.iter().enumerate() {
-            t.real(name)
-                .output()
-                .discrete()
-                .unit(STATE_UNITS[block])
-                .about_by(move |i| format!("{about}, {}", AXES[i]))
-                .vector(3, move |m, i| {
-                    m.read(|n| of(n, measures, n.estimate().x[3 * block + i]))
-                });
-        }
-    }
-    t.boolean("est.acceleration_valid")
-        .output()
-        .about("whether the filter estimates an unmodelled acceleration, be it as a state with a covariance or not")
-        .get(|m| m.read(Navigator::estimates_acceleration));
-    t.real("nis")
-        .output()
-        .discrete()
-        .unit("1")
-        .about("normalised innovation squared of the newest measurement: LiDAR, 3 rows, or relative state, 6; 0 without a covariance")
-        .get(|m| m.read(|n| n.innovation().nis));
-    t.real("q.s")
-        .output()
-        .discrete()
-        .unit("m/s^2.5")
-        .about_by(|i| {
-            format!(
-                "square root of the jerk density in use, axis {} of the estimate",
-                AXES[i]
-            )
-        })
-        .vector(3, |m, i| m.read(|n| n.s()[i]));
-    t.integer("q.updates")
-        .output()
-        .about("times the law changed its process noise")
-        .get(|m| m.read(|n| n.updates()));
-    t.enumeration("status", "Status")
-        .output()
-        .about("what the filter is doing")
-        .get(|m| {
-            let status = m.navigator.as_ref().map_or(Status::Initialising, |n| n.status());
-            Status::ALL
-                .iter()
-                .zip(1..)
-                .find(|((s, _), _)| *s == status)
-                .map_or(1, |(_, i)| i)
-        });
+/// `value` of a filter whose state stands in axes N, else 0.
+fn inertial(navigator: &Navigator, value: f64) -> f64 {
+    of_frame(navigator, Frame::Inertial, value)
 }
 
-fn locals(t: &mut Builder) {
-    t.real("cov.p")
-        .local()
-        .discrete()
-        .about("covariance of r_tc, v_tc, a_t (formation: rho, rho_dot, d), SI")
-        .matrix(9, 9, |m, i, j| m.read(|n| n.estimate().p_target[(i, j)]));
-    t.real("cov.sigma")
-        .local()
-        .discrete()
-        .unit_by(|i| STATE_UNITS[i / 3])
-        .about_by(|i| {
-            format!(
-                "standard deviation of {}; formation: of rho, rho_dot, d",
-                state_label(i)
-            )
-        })
-        .vector(18, |m, i| m.read(|n| n.estimate().sigma[i]));
-    for (i, (name, unit)) in [
-        ("innov.range", "m"),
-        ("innov.azimuth", "rad"),
-        ("innov.elevation", "rad"),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        let mut row = t
-            .real(name)
-            .local()
-            .discrete()
-            .unit(unit)
-            .about("measured minus predicted");
-        if unit == "rad" {
-            row = row.display_unit("deg");
+/// `value` of a filter whose state stands in the target's LVLH axes, else 0.
+fn lvlh(navigator: &Navigator, value: f64) -> f64 {
+    of_frame(navigator, Frame::Lvlh, value)
+}
+
+fn of_frame(navigator: &Navigator, frame: Frame, value: f64) -> f64 {
+    if navigator.frame() == frame { value } else { 0.0 }
+}
+
+fn estimate_row(t: &mut Builder, port: &'static Port, shown: Shown) {
+    let (name, about) = (port.name, port.about(0));
+    match shown {
+        Shown::Integer(get) => t.integer(name).output().about(about).get(move |m| m.read(get)),
+        Shown::Boolean(get) => t.boolean(name).output().about(about).get(move |m| m.read(get)),
+        Shown::Status => t
+            .enumeration(name, "Status")
+            .output()
+            .about(about)
+            .get(|m| m.status().number()),
+        Shown::Real(get) => {
+            let row = with_unit(t.real(name).discrete(), port).about_by(|i| port.about(i).to_owned());
+            match port.shape {
+                Shape::Scalar => row.output().get(move |m| m.read(|n| get(n, 0))),
+                Shape::Vector(count) => row.output().vector(count, move |m, i| m.read(|n| get(n, i))),
+                // Not an output: it would crowd every master's result file.
+                Shape::Matrix(rows, columns) => {
+                    row.local()
+                        .matrix(rows, columns, move |m, i, j| m.read(|n| get(n, columns * i + j)));
+                }
+            }
         }
-        row.get(move |m| m.read(|n| of(n, Measures::RangeAndBearing, n.innovation().residual[i])));
     }
-    t.real("innov.s")
-        .local()
-        .discrete()
-        .unit_by(|i| if i == 0 { "m2" } else { "rad2" })
-        .about_by(|i| {
-            format!(
-                "predicted variance of the innovation, {}",
-                ["range", "azimuth", "elevation"][i]
-            )
-        })
-        .vector(3, |m, i| {
-            m.read(|n| of(n, Measures::RangeAndBearing, n.innovation().variance[i]))
-        });
-    for (block, quantity) in ["rho", "rho_dot"].into_iter().enumerate() {
-        let unit = POSITION_AND_VELOCITY[block];
-        t.real(format!("innov.{quantity}"))
-            .local()
-            .discrete()
-            .unit(unit)
-            .about_by(|i| format!("measured minus predicted, LVLH {}", AXES[i]))
-            .vector(3, move |m, i| {
-                m.read(|n| of(n, Measures::RelativeState, n.innovation().residual[3 * block + i]))
-            });
-        t.real(format!("innov.{quantity}_s"))
-            .local()
-            .discrete()
-            .unit(["m2", "m2/s2"][block])
-            .about_by(|i| format!("predicted variance of the innovation, LVLH {}", AXES[i]))
-            .vector(3, move |m, i| {
-                m.read(|n| of(n, Measures::RelativeState, n.innovation().variance[3 * block + i]))
-            });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fmi2_export::{Experiment, Log, Model};
+    use interface::ports::PORTS;
+    use interface::signals::Seen;
+    use std::path::Path;
+
+    /// Value of a variable.
+    fn real(model: &NavModel, name: &str) -> f64 {
+        let table = NavModel::table();
+        let entry = table.find(name).and_then(|number| table.entry(number)).unwrap();
+        entry.read(model).unwrap()
     }
-    t.integer("q.skipped")
-        .local()
-        .about("updates passed by because the adaptation window was singular")
-        .get(|m| m.read(|n| n.skipped()));
-    t.integer("q.unsolved")
-        .local()
-        .about("updates at which the law's solver found no solution, so that the last process noise stayed")
-        .get(|m| m.read(|n| n.unsolved()));
+
+    fn integer(model: &NavModel, name: &str) -> i32 {
+        let table = NavModel::table();
+        let entry = table.find(name).and_then(|number| table.entry(number)).unwrap();
+        entry.read(model).unwrap()
+    }
+
+    fn started(scenario: i32) -> NavModel {
+        let mut model = NavModel::blank();
+        NavModel::table().apply_start(&mut model);
+        model.choice.scenario = scenario;
+        model
+    }
+
+    fn initialised(mut model: NavModel) -> NavModel {
+        let experiment = Experiment {
+            start_time: 0.0,
+            stop_time: None,
+            tolerance: None,
+        };
+        model.initialise(&experiment, &mut Log::silent()).unwrap();
+        model
+    }
+
+    /// A sample at `t` seconds, which is also its ordinal, with every sensor's measurement; both vehicles in low orbit.
+    fn sampled(mut model: NavModel, t: i32) -> NavModel {
+        let seen = Seen { due: true, valid: true };
+        let mut init = [0.0; 18];
+        init[..6].copy_from_slice(&[500.0, 30.0, -20.0, -0.5, 0.1, 0.0]);
+        init[9..15].copy_from_slice(&[6.878e6, 0.0, 0.0, 0.0, 7.6e3, 0.0]);
+        model.inputs = Signals {
+            sample_time: f64::from(t),
+            sample_count: t,
+            lidar: seen,
+            lidar_z: [501.0, 1e-4, -2e-4],
+            metrology: seen,
+            metrology_z: [500.0, 30.0, -20.0, -0.5, 0.1, 0.0],
+            target_orbit: [8.1e6, 10.0, 5.6e10, 0.5, 0.25],
+            // Body y, the boresight, along N x.
+            dcm_bc_n: [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+            nav_init: init,
+            ..model.inputs
+        };
+        model.do_step(f64::from(t - 1), 1.0, &mut Log::silent()).unwrap();
+        model
+    }
+
+    #[test]
+    fn every_port_of_the_filter_is_in_the_table() {
+        let rows = NavModel::table().rows();
+        for port in PORTS {
+            let row = rows.iter().find(|row| row.name == port.name);
+            let ours = matches!(port.role, Role::Sensor | Role::Estimate);
+            assert_eq!(row.is_some(), ours, "{}", port.name);
+            if let Some(row) = row {
+                assert_eq!(row.shape.count(), port.shape.len(), "{}", port.name);
+            }
+        }
+    }
+
+    #[test]
+    fn tunables_stand_last() {
+        let rows = NavModel::table().rows();
+        let of_a_law = |name: &str| FILTERS.iter().any(|f| name.starts_with(&format!("{}.", f.name)));
+        let first = rows.iter().position(|row| of_a_law(&row.name)).unwrap();
+        assert!(rows[first..].iter().all(|row| of_a_law(&row.name)));
+        let tunables: usize = FILTERS.iter().map(|f| f.tunables.len()).sum();
+        assert_eq!(rows.len() - first, tunables);
+    }
+
+    #[test]
+    fn inputs_start_at_what_a_truth_means_that_does_not_know_of_them() {
+        assert_eq!(started(1).inputs, Signals::default());
+    }
+
+    #[test]
+    fn outputs_show_the_estimate() {
+        let model = sampled(initialised(started(1)), 1);
+        let n = model.navigator.clone().unwrap();
+        let (estimate, innovation) = (n.estimate(), n.innovation());
+        let expected = [
+            ("est.time", 1.0),
+            ("est.r_tc_n[1]", estimate.x[0]),
+            ("est.v_tc_n[2]", estimate.x[4]),
+            ("est.a_t_n[3]", estimate.x[8]),
+            ("est.r_c_n[1]", estimate.x[9]),
+            ("est.v_c_n[2]", estimate.x[13]),
+            ("est.b_c_bc[3]", estimate.x[17]),
+            ("est.rho_lvlh[1]", 0.0),
+            ("nis", innovation.nis),
+            ("q.s[2]", n.s()[1]),
+            ("cov.sigma[1]", estimate.p_target[(0, 0)].sqrt()),
+            ("cov.sigma[18]", estimate.sigma[17]),
+            ("cov.p[1,4]", estimate.p_target[(0, 3)]),
+            ("cov.p[9,2]", estimate.p_target[(8, 1)]),
+            ("innov.range", innovation.residual[0]),
+            ("innov.azimuth", innovation.residual[1]),
+            ("innov.elevation", innovation.residual[2]),
+            ("innov.s[3]", innovation.variance[2]),
+            ("innov.rho[1]", 0.0),
+            ("innov.rho_s[1]", 0.0),
+        ];
+        for (name, value) in expected {
+            assert_eq!(real(&model, name).to_bits(), value.to_bits(), "{name}");
+        }
+        // Nearly along the boresight, half a kilometre away.
+        assert!((real(&model, "est.r_tc_n[1]") - 500.0).abs() < 20.0);
+        assert!(real(&model, "innov.range").abs() > 0.0 && real(&model, "cov.p[1,4]").abs() > 0.0);
+        let expected = [
+            ("est.count", 1),
+            ("est.dimension", 9),
+            ("nis.rows", 3),
+            ("status", Status::Tracking.number()),
+        ];
+        for (name, value) in expected {
+            assert_eq!(integer(&model, name), value, "{name}");
+        }
+    }
+
+    #[test]
+    fn outputs_show_the_formation() {
+        let model = sampled(initialised(started(3)), 1);
+        let n = model.navigator.clone().unwrap();
+        let (estimate, innovation) = (n.estimate(), n.innovation());
+        let expected = [
+            ("est.r_tc_n[1]", 0.0),
+            ("est.rho_lvlh[2]", estimate.x[1]),
+            ("est.rho_dot_lvlh[1]", estimate.x[3]),
+            ("est.d_lvlh[3]", estimate.x[8]),
+            ("innov.range", 0.0),
+            ("innov.rho[1]", innovation.residual[7]),
+            ("innov.rho_s[3]", innovation.variance[9]),
+            ("innov.rho_dot[2]", innovation.residual[11]),
+            ("innov.rho_dot_s[1]", innovation.variance[10]),
+        ];
+        for (name, value) in expected {
+            assert_eq!(real(&model, name).to_bits(), value.to_bits(), "{name}");
+        }
+        assert_eq!(integer(&model, "nis.rows"), 6);
+    }
+
+    #[test]
+    fn before_the_first_sample_nothing_is_claimed() {
+        let model = initialised(started(1));
+        assert_eq!(integer(&model, "status"), Status::Initialising.number());
+        assert_eq!(integer(&model, "nis.rows"), 0);
+        assert_eq!(integer(&started(1), "status"), Status::Initialising.number());
+    }
+
+    #[test]
+    fn a_mission_file_goes_before_the_scenario() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../missions/formation.toml");
+        let mut told = started(1);
+        told.choice.mission_file = path.to_string_lossy().into_owned();
+        let (told, same) = (sampled(initialised(told), 1), sampled(initialised(started(3)), 1));
+        assert_eq!(told.navigator.unwrap().estimate(), same.navigator.unwrap().estimate());
+    }
+
+    #[test]
+    fn a_mission_that_cannot_be_had_is_named() {
+        let experiment = Experiment {
+            start_time: 0.0,
+            stop_time: None,
+            tolerance: None,
+        };
+        for (scenario, file, part) in [(1, "nowhere/none.toml", "none.toml"), (9, "", "1 (leo_venting)")] {
+            let mut model = started(scenario);
+            model.choice.mission_file = file.to_owned();
+            let error = model
+                .initialise(&experiment, &mut Log::silent())
+                .unwrap_err()
+                .to_string();
+            assert!(error.contains(part), "{error}");
+        }
+    }
 }

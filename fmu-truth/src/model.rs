@@ -4,11 +4,12 @@ use crate::variables;
 use astro::TargetOrbit;
 use fmi2_export::{Experiment, Log, Model, ModelError, ModelInfo, Table};
 use interface::Signals;
-use interface::mission::Embedded;
+use interface::mission::{Embedded, packed_guid};
 use interface::signals::Seen;
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 use std::sync::OnceLock;
-use truth::{Inputs, Params, Simulation};
+use truth::{Inputs, Params, SensorSample, Simulation};
 
 /// One slave.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -62,6 +63,14 @@ impl Model for TruthModel {
         }
     }
 
+    fn set_resources(&mut self, folder: &Path) {
+        self.params.choice.resources = Some(folder.to_owned());
+    }
+
+    fn identifier_with(own: &str, resources: &Path) -> Option<String> {
+        packed_guid(own, resources)
+    }
+
     fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError> {
         let simulation = Simulation::new(&self.params, experiment.start_time, &self.inputs)?;
         log.event(format_args!(
@@ -75,15 +84,20 @@ impl Model for TruthModel {
         for note in simulation.notes() {
             log.event(format_args!("note: {note}"));
         }
-        self.signals = shown(&simulation);
+        self.signals.nav_init = std::array::from_fn(|i| simulation.initial_estimate()[i]);
+        show(&mut self.signals, simulation.sample());
         self.simulation = Some(simulation);
         Ok(())
     }
 
     fn do_step(&mut self, t: f64, h: f64, _log: &mut Log<'_>) -> Result<(), ModelError> {
         if let Some(simulation) = &mut self.simulation {
+            let shown = simulation.sample().count;
             simulation.advance_to(t + h, &self.inputs)?;
-            self.signals = shown(simulation);
+            let sample = simulation.sample();
+            if sample.count != shown {
+                show(&mut self.signals, sample);
+            }
         }
         Ok(())
     }
@@ -102,31 +116,25 @@ fn nothing() -> Signals {
     }
 }
 
-/// What the outputs show of a run.
-fn shown(simulation: &Simulation) -> Signals {
-    let sample = simulation.sample();
+/// Makes the outputs show a sample.
+fn show(signals: &mut Signals, sample: &SensorSample) {
     let seen = |due, valid| Seen { due, valid };
     let (lidar, camera, radio, metrology) = (&sample.lidar, &sample.camera, &sample.radio, &sample.metrology);
-    let mut metrology_z = [0.0; 6];
-    metrology_z[..3].copy_from_slice(metrology.rho_lvlh.as_slice());
-    metrology_z[3..].copy_from_slice(metrology.rho_dot_lvlh.as_slice());
+    signals.sample_time = sample.time;
+    signals.sample_count = i32::try_from(sample.count).unwrap_or(i32::MAX);
+    signals.lidar = seen(lidar.due, lidar.valid);
+    signals.lidar_z = [lidar.range, lidar.azimuth, lidar.elevation];
+    signals.camera = seen(camera.due, camera.valid);
+    signals.camera_z = [camera.azimuth, camera.elevation];
+    signals.radio = seen(radio.due, radio.valid);
+    signals.radio_z = [radio.range, radio.range_rate];
+    signals.metrology = seen(metrology.due, metrology.valid);
+    signals.metrology_z[..3].copy_from_slice(metrology.rho_lvlh.as_slice());
+    signals.metrology_z[3..].copy_from_slice(metrology.rho_dot_lvlh.as_slice());
     let orbit = |o: &TargetOrbit| [o.r, o.r_dot, o.h, o.inclination, o.argument_of_latitude];
-    Signals {
-        sample_time: sample.time,
-        sample_count: i32::try_from(sample.count).unwrap_or(i32::MAX),
-        lidar: seen(lidar.due, lidar.valid),
-        lidar_z: [lidar.range, lidar.azimuth, lidar.elevation],
-        camera: seen(camera.due, camera.valid),
-        camera_z: [camera.azimuth, camera.elevation],
-        radio: seen(radio.due, radio.valid),
-        radio_z: [radio.range, radio.range_rate],
-        metrology: seen(metrology.due, metrology.valid),
-        metrology_z,
-        target_orbit: sample.target_orbit.as_ref().map_or([0.0; 5], orbit),
-        accelerometer_valid: sample.accelerometer.valid,
-        accelerometer_mean: sample.accelerometer.mean,
-        alpha_c_bc: sample.accelerometer.alpha_c_bc.into(),
-        dcm_bc_n: std::array::from_fn(|i| sample.dcm_bc_n[(i / 3, i % 3)]),
-        nav_init: std::array::from_fn(|i| simulation.initial_estimate()[i]),
-    }
+    signals.target_orbit = sample.target_orbit.as_ref().map_or([0.0; 5], orbit);
+    signals.accelerometer_valid = sample.accelerometer.valid;
+    signals.accelerometer_mean = sample.accelerometer.mean;
+    signals.alpha_c_bc = sample.accelerometer.alpha_c_bc.into();
+    signals.dcm_bc_n = std::array::from_fn(|i| sample.dcm_bc_n[(i / 3, i % 3)]);
 }

@@ -43,12 +43,15 @@ fn study(t: &mut Builder) {
         .parameter()
         .start(1)
         .about("which of the missions that come with the FMU is simulated")
-        .rw(|m| m.params.scenario, |m, v| m.params.scenario = v);
+        .rw(|m| m.params.choice.scenario, |m, v| m.params.choice.scenario = v);
     t.string("mission_file")
         .parameter()
         .start("")
         .about("path of a mission file, which then stands for the scenario; empty: none")
-        .rw(|m| m.params.mission_file.clone(), |m, v| m.params.mission_file = v);
+        .rw(
+            |m| m.params.choice.mission_file.clone(),
+            |m, v| m.params.choice.mission_file = v,
+        );
     t.integer("study_seed")
         .parameter()
         .min(0)
@@ -208,7 +211,7 @@ mod tests {
     fn run(scenario: i32) -> TruthModel {
         let mut model = TruthModel::blank();
         TruthModel::table().apply_start(&mut model);
-        model.params.scenario = scenario;
+        model.params.choice.scenario = scenario;
         assert!(model.params.set("sample_period", 2.0));
         let experiment = Experiment {
             start_time: 10.0,

@@ -1,6 +1,7 @@
 //! Driving an FMU by names, without a master: one instance with what is set on it, and its answers as bits.
 
 use fmi2_import::{Causality, Experiment, Fmu, ImportError, Instance, Value};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// The default experiment's start, without a stop time.
 pub const FROM_ZERO: Experiment = Experiment {
@@ -54,13 +55,17 @@ pub fn names(fmu: &Fmu, causalities: &[Causality]) -> Vec<String> {
     chosen.map(|v| v.name.clone()).collect()
 }
 
-/// The values of variables as bits, so that NaN equals itself and 0 is not -0.
+/// The values of variables as bits, so that NaN equals itself and 0 is not -0; of a text its hash.
 pub fn bits(instance: &mut Instance, names: &[String]) -> Vec<u64> {
     let bit = |value| match value {
         Value::Real(v) => v.to_bits(),
         Value::Integer(v) => v as u64,
         Value::Boolean(v) => v.into(),
-        Value::String(v) => panic!("no bits for the text {v:?}"),
+        Value::String(v) => {
+            let mut hasher = DefaultHasher::new();
+            v.hash(&mut hasher);
+            hasher.finish()
+        }
     };
     names.iter().map(|name| bit(get(instance, name))).collect()
 }

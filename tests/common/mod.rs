@@ -21,7 +21,7 @@ pub fn fmu(name: &str) -> PathBuf {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     let folder = FOLDER.get_or_init(|| {
         let folder = pack::default_folder(root());
-        pack::pack(root(), &folder, true).unwrap();
+        pack::pack(root(), &folder, None, true).unwrap();
         folder
     });
     pack::fmu_path(folder, name)

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use study::{Assignment, FilterChoice, ForeignFilter, Mapping, Variation, check_case};
 
-use crate::models::{Assignment, FilterChoice, ForeignFilter, Mapping, Range, Variation};
 use crate::pack;
+use crate::tuning::ranges::Range;
 use crate::tuning::standing::Objective;
 
 /// Compares navigation filters in simulated worlds; both are FMI 2.0 FMUs.
@@ -34,6 +35,11 @@ pub enum Command {
     Reproduce(ReproduceArgs),
     /// Show what an FMU is and which variables it has
     Inspect(InspectArgs),
+    /// Write, check and describe mission files
+    #[command(subcommand)]
+    Mission(MissionCommand),
+    /// Tell what every column of the CSV files means
+    Columns,
 }
 
 /// Where our FMUs come from.
@@ -56,14 +62,23 @@ pub struct BuildArgs {
 /// Which worlds.
 #[derive(Debug, Clone, Args)]
 pub struct WorldArgs {
-    /// Scenarios, one study each
-    #[arg(
-        long = "scenario",
-        value_name = "NAME,...",
-        value_delimiter = ',',
-        default_value = "leo_venting"
-    )]
+    /// Missions that come with the project, one study each [default: leo_venting, unless --mission is given]
+    #[arg(long = "scenario", value_name = "NAME,...", value_delimiter = ',')]
     pub scenarios: Vec<String>,
+    /// A mission file, a study of its own; repeatable
+    #[arg(long = "mission", value_name = "FILE")]
+    pub missions: Vec<PathBuf>,
+}
+
+impl WorldArgs {
+    /// Names of missions: those given, or the first when no mission is given at all.
+    pub fn named(&self) -> Vec<String> {
+        if self.scenarios.is_empty() && self.missions.is_empty() {
+            vec!["leo_venting".to_owned()]
+        } else {
+            self.scenarios.clone()
+        }
+    }
 }
 
 /// How many runs, on how many threads.
@@ -87,7 +102,8 @@ pub struct StudyArgs {
     /// Seed of the study; with the number of a run it selects every random stream
     #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_parser = clap::value_parser!(i32).range(0..))]
     pub seed: i32,
-    /// Set a parameter of fmu-truth, fmu-nav or a foreign filter; after the preset, repeatable
+    /// Set a parameter of fmu-truth, fmu-nav or a foreign filter, after the preset, or any key of the mission, as in
+    /// mission.vent.co2.period_s=300; repeatable
     #[arg(long = "set", value_name = "MODEL.VARIABLE=VALUE")]
     pub assignments: Vec<Assignment>,
     /// Draw a Real parameter anew in each run, the same for all filters; uniform or loguniform, repeatable
@@ -114,25 +130,6 @@ pub struct StudyArgs {
     /// Where our FMUs come from.
     #[command(flatten)]
     pub build: BuildArgs,
-}
-
-impl StudyArgs {
-    /// Our own FMUs, nothing set, the filters of each scenario.
-    pub(crate) fn plain(seed: i32, build: &BuildArgs) -> Self {
-        Self {
-            filters: Vec::new(),
-            seed,
-            assignments: Vec::new(),
-            variations: Vec::new(),
-            step: None,
-            scheme: SchemeChoice::GaussSeidel,
-            truth: None,
-            foreign: Vec::new(),
-            mappings: Vec::new(),
-            tuned: None,
-            build: build.clone(),
-        }
-    }
 }
 
 /// An element of `--filters`; `--filters ''` is one that chooses nothing.
@@ -173,9 +170,60 @@ pub struct ListArgs {
     pub build: BuildArgs,
 }
 
+/// `mission`.
+#[derive(Debug, Subcommand)]
+pub enum MissionCommand {
+    /// Write a commented mission file to start from
+    New(MissionNewArgs),
+    /// Read a mission file, fly it without noise and show what happens
+    Check(MissionCheckArgs),
+    /// Print the JSON schema of mission files, for editors
+    Schema,
+}
+
+/// `mission new`.
+#[derive(Debug, Args)]
+pub struct MissionNewArgs {
+    /// Name of the mission; the file is NAME.toml
+    pub name: String,
+    /// Mission that comes with the project to start from
+    #[arg(long, value_name = "NAME", default_value = "leo_venting")]
+    pub from: String,
+    /// Folder to write to
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub out: PathBuf,
+}
+
+/// `mission check`.
+#[derive(Debug, Args)]
+#[command(after_help = "Exit code 0: fit to fly. 1: it flies, but the time grid is too coarse. 2: it cannot be used.")]
+pub struct MissionCheckArgs {
+    /// The mission file, or the name of a mission that comes with the project
+    #[arg(value_name = "FILE")]
+    pub mission: PathBuf,
+    /// Change a key, as in mission.vent.co2.period_s=300; repeatable
+    #[arg(long = "set", value_name = "mission.KEY=VALUE")]
+    pub assignments: Vec<Assignment>,
+    /// Number of the run whose vents are flown
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=i64::from(i32::MAX)))]
+    pub run: u32,
+    /// Seed of the study whose vents are flown
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(i32).range(0..))]
+    pub seed: i32,
+    /// Do not fly it a second time with half the time grid
+    #[arg(long)]
+    pub once: bool,
+    /// Where our FMUs come from.
+    #[command(flatten)]
+    pub build: BuildArgs,
+}
+
 /// `pack`.
 #[derive(Debug, Args)]
 pub struct PackArgs {
+    /// Put this mission into both FMUs as the one they run unless told otherwise
+    #[arg(long, value_name = "FILE")]
+    pub mission: Option<PathBuf>,
     /// Folder to write to [default: target/fmu of the workspace]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -255,20 +303,18 @@ pub struct TuneArgs {
 
 /// The case stands in a file name.
 fn case_name(text: &str) -> Result<String, String> {
-    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
-    if !text.is_empty() && text.chars().all(plain) && !text.starts_with('.') {
-        Ok(text.to_owned())
-    } else {
-        Err("use letters, digits, '-', '_' and '.'".to_owned())
-    }
+    check_case(text).map(|()| text.to_owned())
 }
 
 /// `replay`.
 #[derive(Debug, Args)]
 pub struct ReplayArgs {
-    /// Scenario
-    #[arg(long, value_name = "NAME", default_value = "leo_venting")]
+    /// Mission that comes with the project
+    #[arg(long, value_name = "NAME", default_value = "leo_venting", conflicts_with = "mission")]
     pub scenario: String,
+    /// A mission file
+    #[arg(long, value_name = "FILE")]
+    pub mission: Option<PathBuf>,
     /// Number of the run
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=i64::from(i32::MAX)))]
     pub run: u32,
@@ -332,7 +378,8 @@ mod tests {
             (args.work.runs, args.study.seed, args.case.as_str()),
             (100, 1, "nominal")
         );
-        assert_eq!(args.worlds.scenarios, ["leo_venting"]);
+        assert_eq!(args.worlds.named(), ["leo_venting"]);
+        assert!(compare(&["--mission", "a.toml"]).unwrap().worlds.named().is_empty());
         assert_eq!(args.out, PathBuf::from("results/compare"));
         assert!(args.study.step.is_none() && args.work.jobs.is_none());
     }

@@ -3,129 +3,28 @@
 use std::io;
 use std::path::PathBuf;
 
-use cosim::{BaseType, CosimError};
-use fmi2_import::{Causality, ImportError};
-use interface::annotation::AnnotationError;
+use fmi2_import::ImportError;
 use stats::StatsError;
+use study::StudyError;
 use thiserror::Error;
 
 /// Everything that ends a command; a failed run of a study does not.
 #[derive(Debug, Error)]
 pub enum HarnessError {
+    /// A study that cannot be run.
+    #[error(transparent)]
+    Study(Box<StudyError>),
     /// An FMU that cannot be used, or a name or value it does not know.
     #[error(transparent)]
     Import(Box<ImportError>),
-    /// Slaves that cannot be coupled.
+    /// An orbit, a field of gravity or a date that makes no sense.
     #[error(transparent)]
-    Cosim(Box<CosimError>),
-    /// A statistic that cannot be formed.
-    #[error(transparent)]
-    Stats(#[from] StatsError),
-    /// A scenario of that name does not exist.
-    #[error("there is no scenario '{name}'; there are: {known}")]
-    UnknownScenario {
-        /// Name asked for.
-        name: String,
-        /// Names that exist.
-        known: String,
-    },
-    /// A scenario is named more than once; its rows and files would be the same.
-    #[error("scenario '{name}' is named twice; name each once")]
-    ScenarioTwice {
-        /// The name.
-        name: String,
-    },
-    /// A filter of that name does not exist.
-    #[error("fmu-nav has no filter '{name}'; it has: {known}")]
-    UnknownFilter {
-        /// Name asked for.
-        name: String,
-        /// Names that exist.
-        known: String,
-    },
-    /// A filter has no parameter set of that name.
-    #[error("filter '{filter}' has no preset '{preset}'; it has: {known}")]
-    UnknownPreset {
-        /// The filter.
-        filter: String,
-        /// Preset asked for.
-        preset: String,
-        /// Presets that exist.
-        known: String,
-    },
-    /// `--set` or `--map` names an FMU that is not in the study.
-    #[error("'{text}': there is no model '{model}' in this study; there are: {known}")]
-    UnknownModel {
-        /// Name asked for.
-        model: String,
-        /// The whole assignment.
-        text: String,
-        /// Names that exist.
-        known: String,
-    },
-    /// `--set`, `--vary` or `--range` of something another option governs.
-    #[error("{model}.{variable} cannot be set, varied or searched; use {option}")]
-    Reserved {
-        /// Model.
-        model: String,
-        /// Variable.
-        variable: String,
-        /// The option to use.
-        option: &'static str,
-    },
-    /// A value that a variable cannot take; the FMUs share names, so the message tells whose it is.
-    #[error("{model}: {source}")]
-    Value {
-        /// Model.
-        model: String,
-        /// Variable, value, and what would be allowed.
-        source: Box<ImportError>,
-    },
-    /// `--set`, `--vary` or `--range` of something that is no parameter.
-    #[error("{model}.{variable} has causality '{causality}'; only parameters can be set, varied or searched")]
-    NotAParameter {
-        /// Model.
-        model: String,
-        /// Variable.
-        variable: String,
-        /// What it is.
-        causality: Causality,
-    },
-    /// `--vary` or `--range` of a parameter that is no number.
-    #[error("{model}.{variable} has type '{found}'; only Real parameters can be varied or searched")]
-    NotReal {
-        /// Model.
-        model: String,
-        /// Variable.
-        variable: String,
-        /// Its type.
-        found: BaseType,
-    },
-    /// A parameter would be given two values.
-    #[error("{model}.{variable} is varied twice, or set as well; give one --vary or one --set for it")]
-    VariedTwice {
-        /// Model.
-        model: String,
-        /// Variable.
-        variable: String,
-    },
-    /// What an FMU tells the harness of its filters cannot be read.
-    #[error("{model}: {source}")]
-    Annotation {
-        /// Model name of the FMU.
-        model: String,
-        /// What is wrong.
-        source: AnnotationError,
-    },
-    /// A filter that cannot do anything sensible in a world.
-    #[error("filter '{filter}' has no meaning in scenario '{scenario}': {why}; leave it out there")]
-    NoMeaning {
-        /// The filter, with its preset.
-        filter: String,
-        /// The scenario.
-        scenario: String,
-        /// Why.
-        why: String,
+    Astro(#[from] astro::AstroError),
+    /// A file that is not overwritten.
+    #[error("{} exists already; name another, or move it away", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
     },
     /// A range that no search can cover on a logarithmic scale.
     #[error("{model}.{variable} cannot be searched from {low} to {high}: give LOW:HIGH with 0 < LOW < HIGH")]
@@ -202,69 +101,6 @@ pub enum HarnessError {
         path: PathBuf,
         /// What is wrong with it.
         source: serde_json::Error,
-    },
-    /// A tuned set with a value that cannot be set.
-    #[error("tuned set '{set}' of {scenario} in {}: {source}", file.display())]
-    BadTunedSet {
-        /// The file.
-        file: PathBuf,
-        /// `NAME@SET`.
-        set: String,
-        /// Scenario it holds for.
-        scenario: String,
-        /// What cannot be set, and why.
-        source: Box<HarnessError>,
-    },
-    /// Two rows of the results would have the same name.
-    #[error("filter '{label}' stands in the study twice (or is the name of the truth); give each a label of its own")]
-    LabelTwice {
-        /// The label.
-        label: String,
-    },
-    /// A study of nothing.
-    #[error("the study holds no filter; give --filters or --nav")]
-    NoFilter,
-    /// One of our filters is asked for, but fmu-nav was not opened.
-    #[error("filter '{label}' needs fmu-nav, which is not part of this study")]
-    NoNav {
-        /// The filter asked for.
-        label: String,
-    },
-    /// A truth or filter lacks a variable that no comparison can do without.
-    #[error(
-        "'{label}' offers no variable '{name}' (a Real vector has elements '{name}[1]' to '{name}[3]'); if it has another name there, say so with --map {label}.THEIR_NAME={name}"
-    )]
-    MissingSignal {
-        /// Participant.
-        label: String,
-        /// Name of the contract.
-        name: String,
-    },
-    /// Nothing feeds the initial estimate of a filter.
-    #[error("'{label}' needs its initial estimate, but the truth offers no '{input}'")]
-    MissingInput {
-        /// Participant.
-        label: String,
-        /// The input.
-        input: String,
-    },
-    /// Samples would fall between communication points.
-    #[error(
-        "a communication step of {step} s and samples every {period} s do not fit: one must be a whole multiple of the other, both positive"
-    )]
-    StepGrid {
-        /// Communication step, s.
-        step: f64,
-        /// Sample period, s.
-        period: f64,
-    },
-    /// A slave refuses its settings during initialization.
-    #[error("'{label}' refuses to start with these settings")]
-    Refused {
-        /// Participant.
-        label: String,
-        /// Why.
-        source: Box<CosimError>,
     },
     /// A folder or file cannot be written.
     #[error("cannot write {}: {source}", path.display())]
@@ -359,8 +195,14 @@ impl From<ImportError> for HarnessError {
     }
 }
 
-impl From<CosimError> for HarnessError {
-    fn from(error: CosimError) -> Self {
-        Self::Cosim(Box::new(error))
+impl From<StudyError> for HarnessError {
+    fn from(error: StudyError) -> Self {
+        Self::Study(Box::new(error))
+    }
+}
+
+impl From<StatsError> for HarnessError {
+    fn from(error: StatsError) -> Self {
+        StudyError::from(error).into()
     }
 }

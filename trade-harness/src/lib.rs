@@ -1,31 +1,25 @@
-//! Monte Carlo trade study of navigation filters, coupled through FMI 2.0.
+//! The trade study's command line: Monte Carlo studies of navigation filters, searches for their best parameters, and the
+//! papers rerun.
 //!
-//! A study couples one truth FMU with one navigation FMU for each filter, repeats that over seeded runs on all cores,
-//! and reduces the runs to tables. Truth and filters are known only through FMI and the variable names of the
-//! interface, so anyone's FMU can take either place. No filter lives here and no world: the one model of motion in use is
-//! the Clohessy-Wiltshire solution of `astro`, which [`reproduce`] holds beside the truth, since a paper quotes its drift.
-//! Statistics are in `stats`, loading and stepping in `fmi2-import` and `cosim`.
+//! What a study is and how it runs is in `study`; statistics are in `stats`, loading and stepping in `fmi2-import` and
+//! `cosim`. Here a command line becomes a [`study::Plan`], and results become tables. No filter lives here and no world: the
+//! one model of motion in use is the Clohessy-Wiltshire solution of `astro`, which [`reproduce`] holds beside the truth,
+//! since a paper quotes its drift.
 //!
-//! Start reading at [`study::Study`], then [`run::run_once`], which is one run; [`scenarios`] lists the worlds, [`tuning`]
-//! searches for a filter's best parameters, [`reproduce`] holds what the papers print beside what the studies find, and
-//! [`commands`] is what the command line offers.
+//! Start reading at [`commands`], which is what the command line offers; [`report`] writes the tables, [`tuning`] searches
+//! for a filter's best parameters, [`claims`] and [`reproduce`] hold what the papers print beside what the studies find, and
+//! [`pack`] makes our FMUs.
 
 pub mod bound;
+pub mod claims;
 pub mod cli;
 pub mod commands;
 pub mod error;
-pub mod models;
-mod ordered;
+pub mod format;
 pub mod output;
 pub mod pack;
-mod packed;
 pub mod report;
 pub mod reproduce;
-pub mod run;
-pub mod scenarios;
-pub mod score;
-pub mod signals;
-pub mod study;
 pub mod tuning;
 
 pub use error::HarnessError;

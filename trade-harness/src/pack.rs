@@ -8,11 +8,12 @@ use std::process::{Command, Stdio};
 
 use fmi2_import::{Causality, Fmu, LIBRARY_SUFFIX, ModelDescription, PLATFORM};
 use interface::annotation::Filters;
+use interface::mission::{Document, EMBEDDED, PACKED, SHIPPED, guid_with};
+use study::{NAV, StudyError, TRUTH, filters_of};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::HarnessError;
-use crate::models::{NAV, TRUTH, filters_of};
 use crate::output::write_whole;
 
 /// Our FMUs: crate and model name, and the identifier that library and C functions go by.
@@ -45,12 +46,15 @@ pub fn fmu_path(folder: &Path, name: &str) -> PathBuf {
 
 /// Builds what has changed and packs both FMUs into a folder; a file whose contents would be the same stays.
 ///
+/// * `mission`: a mission file that both run unless told otherwise; it makes them FMUs with identifiers of their own.
+///
 /// Cargo shows its own progress on stderr, unless `quiet`.
 ///
 /// # Errors
 /// [`HarnessError::NoWorkspace`], [`HarnessError::NoCargo`], [`HarnessError::Build`], [`HarnessError::NoLibrary`],
 /// reading, writing and zip errors, and [`HarnessError::DoesNotStart`] for a library and description that do not belong together.
-pub fn pack(workspace: &Path, folder: &Path, quiet: bool) -> Result<Vec<Packed>, HarnessError> {
+pub fn pack(workspace: &Path, folder: &Path, mission: Option<&Path>, quiet: bool) -> Result<Vec<Packed>, HarnessError> {
+    let resources = resources(mission)?;
     let libraries = build(workspace, quiet)?;
     let mut packed = Vec::new();
     for (name, identifier) in FMUS {
@@ -62,12 +66,16 @@ pub fn pack(workspace: &Path, folder: &Path, quiet: bool) -> Result<Vec<Packed>,
             .join(name)
             .join("modelDescription.xml");
         let mut files = BTreeMap::from([
-            ("modelDescription.xml".to_owned(), read(&description)?),
+            (
+                "modelDescription.xml".to_owned(),
+                described(read(&description)?, resources.get(&packed_mission())),
+            ),
             (
                 format!("binaries/{PLATFORM}/{identifier}.{LIBRARY_SUFFIX}"),
                 read(library)?,
             ),
         ]);
+        files.extend(resources.clone());
         let path = fmu_path(folder, name);
         files.insert(
             "documentation/index.html".to_owned(),
@@ -82,6 +90,48 @@ pub fn pack(workspace: &Path, folder: &Path, quiet: bool) -> Result<Vec<Packed>,
         packed.push(Packed { path, written });
     }
     Ok(packed)
+}
+
+/// Place, in an FMU, of the mission that it is packed with.
+fn packed_mission() -> String {
+    format!("resources/{PACKED}")
+}
+
+/// The missions that come with an FMU, and the one it is packed with, with the files that it names.
+fn resources(mission: Option<&Path>) -> Result<BTreeMap<String, Vec<u8>>, HarnessError> {
+    let mut files: BTreeMap<String, Vec<u8>> = EMBEDDED
+        .iter()
+        .map(|entry| {
+            let name = format!("resources/{SHIPPED}/{}.toml", entry.name);
+            (name, entry.text.as_bytes().to_vec())
+        })
+        .collect();
+    let Some(path) = mission else { return Ok(files) };
+    let told = |source| HarnessError::from(StudyError::from(source));
+    let mut document = Document::read(path).map_err(told)?;
+    // What is wrong with it is told here rather than by the FMU.
+    document.mission().map_err(told)?;
+    for (key, field) in document.files().map_err(told)? {
+        let name = field
+            .file_name()
+            .map(|n| n.to_string_lossy().into_owned())
+            .unwrap_or_default();
+        files.insert(format!("resources/fields/{name}"), read(&field)?);
+        document.set(key, &format!("\"fields/{name}\"")).map_err(told)?;
+    }
+    files.insert(packed_mission(), document.text().as_bytes().to_vec());
+    Ok(files)
+}
+
+/// A model description with the identifier that belongs to the mission inside.
+fn described(xml: Vec<u8>, mission: Option<&Vec<u8>>) -> Vec<u8> {
+    let Some(mission) = mission else { return xml };
+    let text = String::from_utf8_lossy(&xml).into_owned();
+    let own = text.split("guid=\"").nth(1).and_then(|rest| rest.split('"').next());
+    match own {
+        Some(own) => text.replace(own, &guid_with(own, mission)).into_bytes(),
+        None => xml,
+    }
 }
 
 /// Runs cargo; returns the shared library of each identifier.
@@ -341,7 +391,7 @@ mod tests {
     #[test]
     fn a_folder_that_is_no_workspace_is_told() {
         let dir = tempfile::tempdir().unwrap();
-        let error = pack(dir.path(), dir.path(), true).unwrap_err();
+        let error = pack(dir.path(), dir.path(), None, true).unwrap_err();
         assert!(matches!(error, HarnessError::NoWorkspace { .. }), "{error}");
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
     }

@@ -5,14 +5,10 @@ mod mocks;
 
 use std::collections::BTreeSet;
 
-use mocks::{Quirk, SCENARIO, spec};
+use mocks::{Quirk, spec, world};
+use study::{Assignment, Plan, Spec, Study, StudyError, StudyResult, Summary, World, run_once};
 use trade_harness::HarnessError;
-use trade_harness::models::FilterChoice;
-use trade_harness::report::summary::SummaryRow;
-use trade_harness::reproduce::{CHAPTERS, Flight, Laboratory, Line, Notebook, Request, Verdict};
-use trade_harness::run::{Spec, run_once};
-use trade_harness::scenarios::Scenario;
-use trade_harness::study::{Study, StudyResult};
+use trade_harness::reproduce::{CHAPTERS, Flight, Laboratory, Line, Notebook, Request, Verdict, fill};
 
 const RUNS: u32 = 6;
 
@@ -20,7 +16,7 @@ const RUNS: u32 = 6;
 struct Mocks {
     quirk: (&'static str, Quirk),
     asked: Vec<Request>,
-    rows: Vec<SummaryRow>,
+    rows: Vec<Summary>,
 }
 
 impl Mocks {
@@ -33,39 +29,38 @@ impl Mocks {
     }
 
     fn spec(&self, request: &Request) -> Spec {
-        let quirk = |label: &&'static str| {
-            let quirk = if *label == self.quirk.0 {
+        let quirk = |label| {
+            let quirk = if label == self.quirk.0 {
                 self.quirk.1
             } else {
                 Quirk::EstimatesAcceleration
             };
-            (*label, quirk)
+            (label, quirk)
         };
-        let filters: Vec<_> = request.filters.iter().map(quirk).collect();
-        let scenario: &'static Scenario = Box::leak(Box::new(Scenario {
-            name: request.scenario.name,
-            ..SCENARIO.clone()
-        }));
+        let filters: Vec<_> = request.filters().map(quirk).collect();
         Spec {
-            scenario,
+            world: World {
+                name: request.world().to_owned(),
+                ..world()
+            },
             ..spec(Quirk::None, &filters)
         }
     }
 }
 
 impl Laboratory for Mocks {
-    fn study(&mut self, request: &Request) -> Result<(Study, StudyResult), HarnessError> {
+    fn study(&mut self, request: &Request) -> Result<(Plan, Study, StudyResult), HarnessError> {
         let study = Study {
             spec: self.spec(request),
             runs: RUNS.div_ceil(request.one_run_in),
             jobs: 1,
-            case: request.case.clone(),
+            case: request.case().to_owned(),
         };
         let result = study.run(|_, _| ())?;
-        let row = |filter| SummaryRow::new(request.scenario.name, &request.case, filter);
+        let row = |filter| Summary::new(request.world(), request.case(), filter);
         self.rows.extend(result.filters.iter().map(row));
         self.asked.push(request.clone());
-        Ok((study, result))
+        Ok((request.plan.clone(), study, result))
     }
 
     fn fly(&mut self, request: &Request) -> Result<Flight, HarnessError> {
@@ -92,7 +87,7 @@ fn of<'a>(notebook: &'a Notebook, item: &str) -> Vec<&'a Line> {
 fn every_chapter_runs_what_it_announces_and_finds_it_again() {
     let mut mocks = Mocks::new("", Quirk::None);
     let mut saved = Vec::new();
-    let notebook = Notebook::fill(&mut mocks, |n| {
+    let notebook = fill(&mut mocks, |n| {
         saved.push(n.lines.len());
         Ok(())
     })
@@ -104,13 +99,18 @@ fn every_chapter_runs_what_it_announces_and_finds_it_again() {
     let names = |requests: &[Request]| -> BTreeSet<(String, String)> {
         requests
             .iter()
-            .map(|r| (r.scenario.name.to_owned(), r.case.clone()))
+            .map(|r| (r.world().to_owned(), r.case().to_owned()))
             .collect()
     };
     assert_eq!(names(&announced).len(), announced.len(), "two studies of one name");
     assert!(names(&mocks.asked).is_subset(&names(&announced)));
-    for filter in announced.iter().flat_map(|r| &r.filters) {
-        assert!(filter.parse::<FilterChoice>().is_ok(), "{filter}");
+    // A label that could not be read, or a world of another name, would be missing.
+    for request in &announced {
+        assert!(
+            request.filters().next().is_some() && request.plan.check().is_ok(),
+            "{request:?}"
+        );
+        assert_eq!(request.plan.worlds(std::path::Path::new("unused")).unwrap().len(), 1);
     }
 
     // The mocks claim no covariance of their acceleration, have no bias, and their runs end before Fig. 4 converges.
@@ -122,20 +122,23 @@ fn every_chapter_runs_what_it_announces_and_finds_it_again() {
         assert!(line.value.is_some() || lacking, "{line:?}");
     }
     let summary = |case: &str, filter: &str| {
-        let row = |r: &&SummaryRow| r.scenario == "formation" && r.case == case && r.filter == filter;
+        let row = |r: &&Summary| r.scenario == "formation" && r.case == case && r.filter == filter;
         mocks.rows.iter().find(row).unwrap()
     };
     let table = of(&notebook, "Table 2, sigma_y");
     let row = summary("disturbance", "rbfnn_aekf");
-    assert_eq!((table[0].printed, table[0].value), (Some(7.6e-7), row.acc_rmse_t_m_s2));
-    assert_eq!(table[0].standard_error, row.acc_rmse_se_t_m_s2);
+    assert_eq!(
+        (table[0].printed, table[0].value),
+        (Some(7.6e-7), row.acceleration.rmse_axes[1])
+    );
+    assert_eq!(table[0].standard_error, row.acceleration.rmse_error_axes[1]);
     assert_eq!(
         (table[1].value, table[1].verdict()),
-        (row.acc_rmse_of_zero_t_m_s2, Verdict::PrintedOnly)
+        (row.zero_acceleration_axes[1], Verdict::PrintedOnly)
     );
     let table = of(&notebook, "Table 3, ekf_j2");
     let row = summary("nominal", "ekf_j2");
-    assert_eq!((table[1].printed, table[1].value), (Some(3.92e-5), row.vel_rmse_m_s));
+    assert_eq!((table[1].printed, table[1].value), (Some(3.92e-5), row.velocity.rmse));
     // A metre is not 6 mm.
     assert!(table[1].is_missed() && table[1].verdict() == Verdict::Fails);
     assert_eq!(of(&notebook, "Table 4, observer").len(), 2);
@@ -169,37 +172,35 @@ fn settings_of_the_papers_reach_the_studies() {
     let find = |case: &str| {
         requests
             .iter()
-            .find(|r| r.case == case && r.scenario.name == "formation")
+            .find(|r| r.case() == case && r.world() == "formation")
             .unwrap()
     };
-    let sets = |case: &str| -> Vec<String> {
-        let text = |a: &trade_harness::models::Assignment| format!("{}.{}={}", a.model, a.variable, a.value);
-        find(case).sets.iter().map(text).collect()
-    };
+    let sets = |case: &str| -> Vec<String> { find(case).plan.assignments.iter().map(Assignment::to_string).collect() };
     assert_eq!(sets("disturbance"), ["fmu-truth.formation.forces=j2"]);
     assert_eq!(sets("neurons_15")[1], "fmu-nav.rbfnn_aekf.neurons=15");
     assert!(sets("nominal").is_empty() && sets("flight").is_empty());
     assert_eq!(
-        find("off_nominal").variations[0].to_string(),
+        find("off_nominal").plan.variations[0].to_string(),
         "fmu-nav.off_nominal=uniform:0.1:10"
     );
-    assert_eq!(find("nominal").variations, []);
+    assert_eq!(find("nominal").plan.variations, []);
 }
 
 #[test]
 fn a_failing_run_is_a_missed_bound() {
     let failing = Quirk::Fails { run: 2, time: 7.0 };
-    let notebook = Notebook::fill(&mut Mocks::new("ekf_j2", failing), |_| Ok(())).unwrap();
+    let notebook = fill(&mut Mocks::new("ekf_j2", failing), |_| Ok(())).unwrap();
     let line = of(&notebook, "all studies")[0];
     // Once nominal, once off-nominal.
     assert_eq!((line.value, line.is_missed()), (Some(2.0), true));
     // The plain filter: in run 0 beside Table 3 and of the light spacecraft, and in the flight for the drift.
     let failing = Quirk::Fails { run: 0, time: 7.0 };
-    let notebook = Notebook::fill(&mut Mocks::new("snc", failing), |_| Ok(())).unwrap();
+    let notebook = fill(&mut Mocks::new("snc", failing), |_| Ok(())).unwrap();
     assert_eq!(of(&notebook, "all studies")[0].value, Some(3.0));
-    let notebook = Notebook::fill(&mut Mocks::new("", Quirk::None), |_| Ok(())).unwrap();
+    let notebook = fill(&mut Mocks::new("", Quirk::None), |_| Ok(())).unwrap();
     assert_eq!(of(&notebook, "all studies")[0].value, Some(0.0));
     // An error of whoever saves ends the work.
-    let full = Notebook::fill(&mut Mocks::new("", Quirk::None), |_| Err(HarnessError::NoFilter));
-    assert!(matches!(full, Err(HarnessError::NoFilter)));
+    let full = fill(&mut Mocks::new("", Quirk::None), |_| Err(StudyError::NoFilter.into()));
+    let error = full.err().map(|e| e.to_string());
+    assert_eq!(error, Some(StudyError::NoFilter.to_string()));
 }

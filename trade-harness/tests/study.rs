@@ -4,14 +4,11 @@
 mod mocks;
 
 use cosim::Scheme;
-use mocks::{Quirk, SIGMA, acceleration, noise, spec};
-use trade_harness::HarnessError;
-use trade_harness::models::{Distribution, Varied};
+use mocks::{Quirk, SIGMA, acceleration, noise, spec, two_rates};
+use study::{Distribution, FilterResult, Spec, Study, StudyError, Summary, Varied, rehearse};
 use trade_harness::report::epochs;
 use trade_harness::report::runs::{Named, render_failures, render_paired, render_runs};
-use trade_harness::report::summary::{self, SummaryRow};
-use trade_harness::run::{Spec, rehearse};
-use trade_harness::study::{FilterResult, Study};
+use trade_harness::report::summary;
 
 const RUNS: i32 = 8;
 
@@ -28,7 +25,7 @@ fn study(spec: Spec, jobs: usize) -> (Spec, Vec<FilterResult>) {
 
 /// Every deterministic file of the study as one text.
 fn files(spec: &Spec, filters: &[FilterResult]) -> String {
-    let rows: Vec<SummaryRow> = filters.iter().map(|f| SummaryRow::new("mock", "nominal", f)).collect();
+    let rows: Vec<Summary> = filters.iter().map(|f| Summary::new("mock", "nominal", f)).collect();
     let named = [Named {
         spec,
         case: "nominal",
@@ -44,8 +41,8 @@ fn files(spec: &Spec, filters: &[FilterResult]) -> String {
     String::from_utf8(all.concat()).unwrap()
 }
 
-fn row(filter: &FilterResult) -> SummaryRow {
-    SummaryRow::new("mock", "nominal", filter)
+fn row(filter: &FilterResult) -> Summary {
+    Summary::new("mock", "nominal", filter)
 }
 
 /// The errors of these runs, from the formula of the mock, over the scored samples 11 to 40.
@@ -71,11 +68,13 @@ fn statistics_are_those_of_the_known_errors() {
     let (_, filters) = study(spec(Quirk::None, &[("good", Quirk::None)]), 2);
     let row = row(&filters[0]);
     assert_eq!((row.runs, row.failed, row.diverged), (8, 0, 0));
-    near(row.pos_rmse_m, rms_norm(0..RUNS));
-    near(row.vel_rmse_m_s, rms_norm(0..RUNS));
+    near(row.position.rmse, rms_norm(0..RUNS));
+    near(row.velocity.rmse, rms_norm(0..RUNS));
     // Six states of the same variance, position and velocity errors alike.
-    near(row.nees, 2.0 * rms_norm(0..RUNS).powi(2) / (SIGMA * SIGMA) / 6.0);
-    near(row.nis, 2.0);
+    near(row.nees.mean, 2.0 * rms_norm(0..RUNS).powi(2) / (SIGMA * SIGMA) / 6.0);
+    // It has no other states.
+    assert_eq!(row.nees6, row.nees);
+    near(row.nis.mean, 2.0);
     let mut ratios: Vec<f64> = Vec::new();
     for count in 11..=40 {
         for axis in 0..3 {
@@ -84,9 +83,9 @@ fn statistics_are_those_of_the_known_errors() {
         }
     }
     ratios.sort_by(f64::total_cmp);
-    near(row.ratio_pos, 0.5 * (ratios[44] + ratios[45]));
+    near(row.position.ratio, 0.5 * (ratios[44] + ratios[45]));
     assert_eq!(
-        (row.acc_rmse_m_s2, row.ratio_acc, row.nees_dimension),
+        (row.acceleration.rmse, row.acceleration.ratio, row.nees_dimension),
         (None, None, Some(6))
     );
 }
@@ -119,21 +118,25 @@ fn standard_errors_and_axes_are_those_of_the_known_errors() {
     let row = row(&filters[0]);
     let runs = mean_squares(|_| true);
     let of_axis = |axis: usize| runs.iter().map(|r| r[axis]).collect::<Vec<_>>();
-    for (axis, value) in [row.pos_rmse_r_m, row.pos_rmse_t_m, row.pos_rmse_n_m]
-        .into_iter()
-        .enumerate()
+    for (axis, value) in [
+        row.position.rmse_axes[0],
+        row.position.rmse_axes[1],
+        row.position.rmse_axes[2],
+    ]
+    .into_iter()
+    .enumerate()
     {
         near(value, spread(&of_axis(axis)).0.sqrt());
     }
-    near(row.vel_rmse_t_m_s, spread(&of_axis(1)).0.sqrt());
+    near(row.velocity.rmse_axes[1], spread(&of_axis(1)).0.sqrt());
     let (mean, error) = spread(&runs.iter().map(|r| r.iter().sum()).collect::<Vec<f64>>());
-    near(row.pos_rmse_se_m, error / (2.0 * mean.sqrt()));
-    near(row.vel_rmse_se_m_s, error / (2.0 * mean.sqrt()));
+    near(row.position.rmse_error, error / (2.0 * mean.sqrt()));
+    near(row.velocity.rmse_error, error / (2.0 * mean.sqrt()));
     // Position and velocity errors alike over six states: two thirds of a squared error over three sigmas squared.
-    near(row.nees_se, 2.0 * error / (SIGMA * SIGMA) / 6.0);
-    assert_eq!((row.nis_se, row.acc_rmse_se_m_s2), (Some(0.0), None));
-    near(row.acc_rmse_of_zero_t_m_s2, acceleration(1));
-    near(row.acc_rmse_of_zero_m_s2, 1e-5 * 14.0_f64.sqrt());
+    near(row.nees.error, 2.0 * error / (SIGMA * SIGMA) / 6.0);
+    assert_eq!((row.nis.error, row.acceleration.rmse_error), (Some(0.0), None));
+    near(row.zero_acceleration_axes[1], acceleration(1));
+    near(row.zero_acceleration, 1e-5 * 14.0_f64.sqrt());
 }
 
 #[test]
@@ -142,13 +145,13 @@ fn an_acceleration_beside_six_states_is_scored_where_the_filter_says_so() {
     let row = row(&filters[0]);
     let runs = mean_squares(|count| count % 2 == 1);
     let of_axis = |axis: usize| spread(&runs.iter().map(|r| r[axis]).collect::<Vec<_>>());
-    near(row.acc_rmse_n_m_s2, 1e-6 * of_axis(2).0.sqrt());
+    near(row.acceleration.rmse_axes[2], 1e-6 * of_axis(2).0.sqrt());
     near(
-        row.acc_rmse_se_r_m_s2,
+        row.acceleration.rmse_error_axes[0],
         1e-6 * of_axis(0).1 / (2.0 * of_axis(0).0.sqrt()),
     );
-    assert_eq!((row.ratio_acc, row.nees_dimension), (None, Some(6)));
-    near(row.nees, 2.0 * rms_norm(0..RUNS).powi(2) / (SIGMA * SIGMA) / 6.0);
+    assert_eq!((row.acceleration.ratio, row.nees_dimension), (None, Some(6)));
+    near(row.nees.mean, 2.0 * rms_norm(0..RUNS).powi(2) / (SIGMA * SIGMA) / 6.0);
 }
 
 #[test]
@@ -226,7 +229,7 @@ fn a_long_step_scores_the_samples_that_are_left() {
         })
         .collect();
     near(
-        row(&filters[0]).pos_rmse_m,
+        row(&filters[0]).position.rmse,
         (squares.iter().sum::<f64>() / squares.len() as f64).sqrt(),
     );
 }
@@ -243,10 +246,10 @@ fn a_failed_run_is_counted_and_leaves_the_others_alone() {
     let [good, failing, nan, lying] = [0, 1, 2, 3].map(|i| row(&filters[i]));
     assert_eq!([good.failed, failing.failed, nan.failed, lying.failed], [0, 1, 1, 8]);
     assert_eq!([good.runs, failing.runs, nan.runs, lying.runs], [8; 4]);
-    near(good.pos_rmse_m, rms_norm(0..RUNS));
-    near(failing.pos_rmse_m, rms_norm((0..RUNS).filter(|r| *r != 3)));
-    near(nan.pos_rmse_m, rms_norm((0..RUNS).filter(|r| *r != 2)));
-    assert_eq!(lying.pos_rmse_m, None);
+    near(good.position.rmse, rms_norm(0..RUNS));
+    near(failing.position.rmse, rms_norm((0..RUNS).filter(|r| *r != 3)));
+    near(nan.position.rmse, rms_norm((0..RUNS).filter(|r| *r != 2)));
+    assert_eq!(lying.position.rmse, None);
 
     let named = [Named {
         spec: &s,
@@ -285,7 +288,7 @@ fn a_failed_truth_fails_every_filter_of_that_run() {
         assert_eq!(filter.failed(), 1);
         let failure = filter.runs[5].failure.as_ref().unwrap();
         assert!(failure.message.contains("fmu-truth"), "{failure:?}");
-        near(row(filter).pos_rmse_m, rms_norm((0..RUNS).filter(|r| *r != 5)));
+        near(row(filter).position.rmse, rms_norm((0..RUNS).filter(|r| *r != 5)));
     }
 }
 
@@ -295,23 +298,50 @@ fn diverged_runs_are_counted_and_stay_in_the_statistics() {
     let (_, filters) = study(spec(Quirk::None, &quirks), 2);
     assert_eq!((row(&filters[0]).diverged, row(&filters[1]).diverged), (1, 1));
     assert!(filters[0].runs[1].diverged && filters[1].runs[4].diverged);
-    near(row(&filters[0]).pos_rmse_m, rms_norm(0..RUNS));
-    assert!(row(&filters[1]).pos_rmse_m.unwrap() > 200.0 / f64::from(RUNS).sqrt());
+    near(row(&filters[0]).position.rmse, rms_norm(0..RUNS));
+    assert!(row(&filters[1]).position.rmse.unwrap() > 200.0 / f64::from(RUNS).sqrt());
 }
 
 #[test]
 fn dropped_samples_do_not_enter_the_nis() {
     let (_, filters) = study(spec(Quirk::Drops, &[("good", Quirk::None)]), 1);
-    near(row(&filters[0]).nis, 2.0);
+    near(row(&filters[0]).nis.mean, 2.0);
+}
+
+/// Samples are counted, epochs are times: what has no sample is left out, and a sample of any sensor counts.
+#[test]
+fn sensors_of_two_rates_are_scored_at_their_own_times() {
+    let (s, filters) = study(
+        spec(Quirk::TwoRates, &[("good", Quirk::TwoRates), ("bare", Quirk::Bare)]),
+        2,
+    );
+    let times = two_rates(40);
+    let scored = || (1..).zip(&times).filter(|(_, t)| **t >= 11);
+    let squares: Vec<f64> = (0..RUNS)
+        .flat_map(|run| scored().map(move |(count, _)| (0..3).map(|a| noise(run, count, a).powi(2)).sum()))
+        .collect();
+    for filter in &filters {
+        assert_eq!(filter.failed(), 0, "{:?}", filter.runs[0].failure);
+        let rmse = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+        near(row(filter).position.rmse, rmse);
+    }
+    near(row(&filters[0]).nis.mean, 2.0);
+    let text = String::from_utf8(epochs::render(&s, &filters[0]).unwrap()).unwrap();
+    let shown: Vec<f64> = text
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').next().unwrap().parse().unwrap())
+        .collect();
+    assert_eq!(shown, times.iter().map(|t| f64::from(*t)).collect::<Vec<_>>());
 }
 
 #[test]
 fn a_bare_filter_is_scored_by_what_it_offers() {
     let (_, filters) = study(spec(Quirk::None, &[("bare", Quirk::Bare)]), 1);
     let row = row(&filters[0]);
-    near(row.pos_rmse_m, rms_norm(0..RUNS));
+    near(row.position.rmse, rms_norm(0..RUNS));
     assert_eq!(
-        (row.ratio_pos, row.nees, row.nees_median, row.nis),
+        (row.position.ratio, row.nees.mean, row.nees.median, row.nis.mean),
         (None, None, None, None)
     );
     let text = String::from_utf8(summary::render(&[row]).unwrap()).unwrap();
@@ -327,15 +357,15 @@ fn what_cannot_work_is_told_before_the_first_run() {
             .is_empty()
     );
     let error = refused(Quirk::None, Quirk::NoVelocity);
-    assert!(matches!(&error, HarnessError::MissingSignal { label, name } if label == "theirs" && name == "est.v_tc_n"));
+    assert!(matches!(&error, StudyError::MissingSignal { label, name } if label == "theirs" && name == "est.v_tc_n"));
     let error = refused(Quirk::NoInitialEstimate, Quirk::None);
     assert!(
-        matches!(&error, HarnessError::MissingInput { input, .. } if input == "nav_init.x[1]"),
+        matches!(&error, StudyError::MissingInput { input, .. } if input == "nav_init.x[1]"),
         "{error}"
     );
     let error = refused(Quirk::None, Quirk::Refuses);
     assert!(
-        matches!(&error, HarnessError::Refused { label, .. } if label == "theirs"),
+        matches!(&error, StudyError::Refused { label, .. } if label == "theirs"),
         "{error}"
     );
     for (step, sample_period) in [(0.3, 1.0), (0.0, 1.0), (-1.0, 1.0), (1.0, f64::NAN), (1.5, 1.0)] {
@@ -345,7 +375,7 @@ fn what_cannot_work_is_told_before_the_first_run() {
             ..spec(Quirk::None, &[("theirs", Quirk::None)])
         };
         assert!(
-            matches!(rehearse(&s), Err(HarnessError::StepGrid { .. })),
+            matches!(rehearse(&s), Err(StudyError::StepGrid { .. })),
             "{step} {sample_period}"
         );
     }
@@ -365,5 +395,5 @@ fn a_mapped_name_takes_the_place_of_ours() {
     let names = |axis: usize| (format!("their_v[{axis}]"), format!("est.v_tc_n[{axis}]"));
     mapped.filters[0].aliases.extend((1..=3).map(names));
     let (_, filters) = study(mapped, 1);
-    near(row(&filters[0]).vel_rmse_m_s, rms_norm(0..RUNS));
+    near(row(&filters[0]).velocity.rmse, rms_norm(0..RUNS));
 }

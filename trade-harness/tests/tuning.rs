@@ -4,16 +4,14 @@
 mod mocks;
 
 use mocks::{BEST_GAIN, Quirk, SIGMA, noise, spec};
+use study::{Quantity, Study, Summary, evaluate};
 use trade_harness::report::best::{self, Entry, Ranking};
 use trade_harness::report::searched;
-use trade_harness::report::summary::SummaryRow;
-use trade_harness::score::Quantity;
-use trade_harness::study::Study;
+use trade_harness::tuning::contender::Contender;
 use trade_harness::tuning::notes::notes;
 use trade_harness::tuning::ranges::Axis;
 use trade_harness::tuning::standing::{Limits, Objective};
 use trade_harness::tuning::study::{Evaluation, Options, Searched, Tuning};
-use trade_harness::tuning::tally::evaluate;
 
 const RUNS: u32 = 6;
 
@@ -37,10 +35,10 @@ fn a_tally_says_what_a_study_says() {
     };
     let filters = study.run(|_, _| ()).unwrap().filters;
     let mut runs = 0;
-    let tallies = evaluate(&study.spec, RUNS, 2, || runs += 1).unwrap();
+    let tallies = evaluate(&study.spec, RUNS, 2, || runs += 1);
     assert_eq!(runs, RUNS);
     for (tally, filter) in tallies.iter().zip(&filters) {
-        let row = SummaryRow::new("mock", "nominal", filter);
+        let row = Summary::new("mock", "nominal", filter);
         assert_eq!(
             (tally.failed as usize, tally.diverged as usize),
             (row.failed, row.diverged),
@@ -48,10 +46,10 @@ fn a_tally_says_what_a_study_says() {
             row.filter
         );
         for (ours, theirs) in [
-            (tally.rmse(Quantity::Position), row.pos_rmse_m),
-            (tally.rmse(Quantity::Velocity), row.vel_rmse_m_s),
-            (tally.rmse(Quantity::Acceleration), row.acc_rmse_m_s2),
-            (tally.nees(), row.nees),
+            (tally.rmse(Quantity::Position), row.position.rmse),
+            (tally.rmse(Quantity::Velocity), row.velocity.rmse),
+            (tally.rmse(Quantity::Acceleration), row.acceleration.rmse),
+            (tally.nees(), row.nees.mean),
         ] {
             assert_eq!(ours.is_some(), theirs.is_some(), "{}", row.filter);
             // Only the order of the sums differs.
@@ -82,10 +80,18 @@ fn options(limits: Limits, jobs: usize) -> Options {
     }
 }
 
+/// A search of these mocks, each over its axes.
+fn tuning(filters: &[(&str, Quirk)], axes: Vec<Vec<Axis>>, options: Options) -> Tuning {
+    let spec = spec(Quirk::None, filters);
+    let contenders = spec.filters.iter().cloned().zip(axes);
+    let contenders = contenders.map(|(base, axes)| Contender::foreign(base, axes)).collect();
+    Tuning::new(spec, contenders, options)
+}
+
 fn tuned(filters: &[(&str, Quirk)], axes: Vec<Vec<Axis>>, limits: Limits, jobs: usize) -> Tuning {
-    let mut tuning = Tuning::new(spec(Quirk::None, filters), axes, options(limits, jobs));
+    let mut tuning = tuning(filters, axes, options(limits, jobs));
     let (work, mut done) = (tuning.work(), 0);
-    while tuning.round(|n| done += n).unwrap() {}
+    while tuning.round(|n| done += n) {}
     assert_eq!(done, work);
     tuning
 }
@@ -127,7 +133,7 @@ fn every_filter_gets_its_best_gain_for_the_same_number_of_evaluations() {
         "gain is at the low edge of its range"
     );
     // The best lies outside this range, so its low edge is the best of it.
-    assert_eq!(short.axes[0].edge(best(short)), Some("low"));
+    assert_eq!(short.contender.axes[0].edge(best(short)), Some("low"));
     assert_eq!(
         wide.evaluations[0].values, None,
         "the starting point is among the candidates"
@@ -182,7 +188,7 @@ fn filters_are_ranked_and_sorted_by_the_objective() {
     let rows: Vec<_> = filters
         .iter()
         .rev()
-        .map(|f| SummaryRow::new("mock", "nominal", f))
+        .map(|f| Summary::new("mock", "nominal", f))
         .collect();
     let entries = rows.iter().map(|best| Entry {
         best,
@@ -251,12 +257,8 @@ fn what_cannot_be_had_leaves_the_filter_as_given() {
         evaluations: 5,
         ..options(Limits::new(0.5, 1e3).unwrap(), 1)
     };
-    let mut tuning = Tuning::new(
-        spec(Quirk::None, &[("six", Quirk::Tunable)]),
-        vec![gain(1e-4, 1.0)],
-        options,
-    );
-    while tuning.round(|_| ()).unwrap() {}
+    let mut tuning = tuning(&[("six", Quirk::Tunable)], vec![gain(1e-4, 1.0)], options);
+    while tuning.round(|_| ()) {}
     assert!(tuning.filters[0].late_gain() <= 0.0);
     assert_eq!(notes(&tuning.filters[0], &options), ["no acceleration to tune by"]);
     let best = tuning.filters[0].best().unwrap();

@@ -154,6 +154,19 @@ pub enum CosimError {
         value: String,
     },
 
+    /// A variable is to be read as one of another type.
+    #[error("{slave}.{variable} is of type {found} and cannot be read as {expected}")]
+    WrongType {
+        /// The slave.
+        slave: String,
+        /// The variable.
+        variable: String,
+        /// Its type.
+        found: BaseType,
+        /// Type of what reads it.
+        expected: BaseType,
+    },
+
     /// The step size is no positive finite number, or so small that time would stand still.
     #[error("step size {step} s: a positive, finite number is needed, with less than 2^53 steps in the run")]
     StepSize {

@@ -17,6 +17,6 @@ pub use error::{CosimError, SlaveError};
 pub use fmi2_import::{BaseType, Causality, Experiment, Value};
 pub use fmu::FmuSlave;
 pub use master::{Isolated, OnSlaveError, RunOptions, RunReport, Scheme, SlaveTiming, StepContext};
-pub use probe::Probe;
+pub use probe::{Handle, Probe, Readable, Sample, Values};
 pub use slave::{Port, Slave, SlaveId};
 pub use system::{System, UnconnectedInput};

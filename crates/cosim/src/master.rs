@@ -9,7 +9,7 @@ use fmi2_import::{Experiment, Value};
 
 use crate::exchange::{Bundle, Routes};
 use crate::system::{Member, PortAt};
-use crate::{CosimError, Port, Probe, Slave, SlaveError, SlaveId, System};
+use crate::{CosimError, Port, Sample, Slave, SlaveError, SlaveId, System};
 
 /// Order of exchange and stepping within one communication step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -109,7 +109,7 @@ pub struct SlaveTiming {
     pub set: Duration,
     /// Stepping.
     pub step: Duration,
-    /// Fetching outputs, and reading probes.
+    /// Fetching outputs, and reading samples.
     pub get: Duration,
 }
 
@@ -153,13 +153,13 @@ impl StepContext<'_> {
         self.run.active.get(slave.0).copied().unwrap_or(false)
     }
 
-    /// Reads all variables of the probe, one call per type.
+    /// Reads all variables of the sample, one call per type.
     ///
     /// # Errors
     /// [`CosimError::Inactive`], [`CosimError::UnknownSlave`], or [`CosimError::Slave`] if the slave fails. Such a failure
     /// has the same consequence as in a step: the slave leaves the run, or the run ends after this callback.
-    pub fn read(&mut self, probe: &mut Probe) -> Result<(), CosimError> {
-        let i = probe.slave.0;
+    pub fn read(&mut self, sample: &mut Sample) -> Result<(), CosimError> {
+        let i = sample.slave.0;
         let Some(member) = self.members.get_mut(i) else {
             return Err(CosimError::UnknownSlave {
                 index: i,
@@ -172,7 +172,7 @@ impl StepContext<'_> {
             });
         }
         let result = timed(self.run.options.timing, &mut self.run.timings[i].get, || {
-            probe.bundle.get(member.slave.as_mut())
+            sample.bundle.get(member.slave.as_mut())
         });
         let Err(error) = result else { return Ok(()) };
         let error = CosimError::Slave {

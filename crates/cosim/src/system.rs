@@ -5,8 +5,7 @@ use std::fmt;
 
 use fmi2_import::{Causality, Value, suggest};
 
-use crate::exchange::Bundle;
-use crate::{CosimError, Port, Probe, Slave, SlaveId};
+use crate::{CosimError, Port, Slave, SlaveId};
 
 /// An input that nothing feeds; it keeps its start value.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -206,20 +205,6 @@ impl System {
         Ok(())
     }
 
-    /// Prepares to read the named variables of a slave together.
-    ///
-    /// # Errors
-    /// [`CosimError::UnknownSlave`] or [`CosimError::UnknownVariable`].
-    pub fn probe<S: AsRef<str>>(&self, slave: SlaveId, names: &[S]) -> Result<Probe, CosimError> {
-        let mut bundle = Bundle::default();
-        for name in names {
-            let (_, at) = self.locate(slave, name.as_ref())?;
-            let port = &self.members[slave.0].ports[at];
-            bundle.push(port.kind, port.reference);
-        }
-        Ok(Probe { slave, bundle })
-    }
-
     /// The port of this name, if the slave has one.
     #[must_use]
     pub fn port(&self, slave: SlaveId, name: &str) -> Option<&Port> {
@@ -281,6 +266,17 @@ impl System {
                 variable: name.to_owned(),
                 suggestion: suggest(name, member.ports.iter().map(|p| p.name.as_str())),
             })
+    }
+
+    /// Refuses a slave of another system.
+    pub(crate) fn known(&self, slave: SlaveId) -> Result<(), CosimError> {
+        let member = self.members.get(slave.0).map(|_| ());
+        member.ok_or_else(|| self.unknown_slave(slave))
+    }
+
+    /// The port of this name.
+    pub(crate) fn known_port(&self, slave: SlaveId, name: &str) -> Result<&Port, CosimError> {
+        self.locate(slave, name).map(|at| self.port_at(at))
     }
 
     fn unknown_slave(&self, slave: SlaveId) -> CosimError {

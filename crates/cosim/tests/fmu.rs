@@ -42,7 +42,11 @@ fn an_fmu_and_a_mock_share_a_system() {
     system.set_start(broken, "answer", Value::Integer(4)).unwrap();
     system.set_start(tank, "answer", Value::Integer(1)).unwrap();
 
-    let mut probe = system.probe(tank, &["level", "steps", "open", "trace"]).unwrap();
+    let mut probe = system.probe(tank).unwrap();
+    let level = probe.real("level").unwrap();
+    let (steps, open) = (probe.integer("steps").unwrap(), probe.boolean("open").unwrap());
+    let trace = probe.string("trace").unwrap();
+    let mut sample = probe.sample();
     let mut levels = Vec::new();
     let options = RunOptions {
         stop: 2.0,
@@ -52,16 +56,16 @@ fn an_fmu_and_a_mock_share_a_system() {
     };
     let report = system
         .run(&options, |ctx| {
-            ctx.read(&mut probe).unwrap();
-            levels.push(probe.reals()[0]);
+            ctx.read(&mut sample).unwrap();
+            levels.push(sample.get(level));
             GO_ON
         })
         .unwrap();
     // From 0.5 by 0.5 (1, 2, 3, 4).
     assert_eq!(levels, [0.5, 1.0, 2.0, 3.5, 5.5]);
     assert_eq!(
-        (probe.integers(), probe.booleans(), probe.strings()),
-        (&[4][..], &[true][..], &[String::new()][..])
+        (sample.get(steps), sample.get(open), sample.get(trace)),
+        (4, true, String::new())
     );
 
     let [failed] = &report.isolated[..] else {

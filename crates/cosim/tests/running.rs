@@ -14,8 +14,8 @@ use std::time::Duration;
 
 use common::{Journal, Mock, entries};
 use cosim::{
-    BaseType, Causality, CosimError, OnSlaveError, Probe, RunOptions, RunReport, Scheme, SlaveId, StepContext, System,
-    Value,
+    BaseType, Causality, CosimError, Handle, OnSlaveError, RunOptions, RunReport, Sample, Scheme, SlaveId, StepContext,
+    System, Value,
 };
 
 const GO_ON: ControlFlow<()> = ControlFlow::Continue(());
@@ -35,15 +35,24 @@ fn isolating(stop: f64) -> RunOptions {
     }
 }
 
-/// Runs and reads one Real of each probe at every communication point.
-fn record(system: &mut System, options: &RunOptions, probes: &mut [Probe]) -> Vec<Vec<f64>> {
+/// One Real to read.
+type Reading = (Sample, Handle<f64>);
+
+fn reading(system: &System, slave: SlaveId, name: &str) -> Reading {
+    let mut probe = system.probe(slave).unwrap();
+    let value = probe.real(name).unwrap();
+    (probe.sample(), value)
+}
+
+/// Runs and takes each reading at every communication point.
+fn record(system: &mut System, options: &RunOptions, readings: &mut [Reading]) -> Vec<Vec<f64>> {
     let mut rows = Vec::new();
     let report = system
         .run(options, |ctx| {
             rows.push(
-                probes
+                readings
                     .iter_mut()
-                    .map(|p| ctx.read(p).map_or(f64::NAN, |()| p.reals()[0]))
+                    .map(|(sample, value)| ctx.read(sample).map_or(f64::NAN, |()| sample.get(*value)))
                     .collect(),
             );
             GO_ON
@@ -54,7 +63,7 @@ fn record(system: &mut System, options: &RunOptions, probes: &mut [Probe]) -> Ve
 }
 
 /// a' = a + b and b' = 2 a, each fed by the other; both start at 1.
-fn loop_of_two() -> (System, [Probe; 2], Journal) {
+fn loop_of_two() -> (System, [Reading; 2], Journal) {
     let journal = Journal::default();
     let mut system = System::new();
     let first = Mock::new("first", &journal)
@@ -68,10 +77,7 @@ fn loop_of_two() -> (System, [Probe; 2], Journal) {
         .step(|v, _, _| *v.get_mut("b").unwrap() = 2.0 * v["a"])
         .add_to(&mut system);
     assert_eq!(system.connect_by_name().unwrap(), 2);
-    let probes = [
-        system.probe(first, &["a"]).unwrap(),
-        system.probe(second, &["b"]).unwrap(),
-    ];
+    let probes = [reading(&system, first, "a"), reading(&system, second, "b")];
     (system, probes, journal)
 }
 
@@ -165,23 +171,25 @@ fn values_travel_in_one_call_per_type_whatever_the_fan_out() {
         .set_start(source, "title", Value::String("hello".to_owned()))
         .unwrap();
 
-    let mut probe = system
-        .probe(sinks[2], &["y", "mode", "valid", "text", "x", "n"])
-        .unwrap();
+    let mut probe = system.probe(sinks[2]).unwrap();
+    let reals = probe.reals(&["y", "x"]).unwrap();
+    let integers = ["mode", "n"].map(|name| probe.integer(name).unwrap());
+    let (valid, text) = (probe.boolean("valid").unwrap(), probe.string("text").unwrap());
+    let mut sample = probe.sample();
     let _ = system
         .run(&options(1.0, Scheme::GaussSeidel), |ctx| {
             if ctx.step() == 0 {
                 entries(&journal);
             } else {
-                ctx.read(&mut probe).unwrap();
+                ctx.read(&mut sample).unwrap();
             }
             GO_ON
         })
         .unwrap();
-    assert_eq!(probe.reals(), [-2.0, 1.5]);
-    assert_eq!(probe.integers(), [3, 7]);
-    assert_eq!(probe.booleans(), [true]);
-    assert_eq!(probe.strings(), ["hello"]);
+    assert_eq!(sample.get(reals), [-2.0, 1.5]);
+    assert_eq!(integers.map(|handle| sample.get(handle)), [3, 7]);
+    assert!(sample.get(valid));
+    assert_eq!(sample.get(text), "hello");
     let calls = entries(&journal);
     for kind in ["real", "integer", "boolean", "string"] {
         let count = |call: String| calls.iter().filter(|c| **c == call).count();
@@ -209,10 +217,10 @@ fn initialization_hands_values_down_the_chain() {
     let end = Mock::new("end", &journal).input("y").add_to(&mut system);
     system.connect_by_name().unwrap();
     system.set_start(source, "p", Value::Real(2.0)).unwrap();
-    let mut probes = [system.probe(end, &["y"]).unwrap()];
+    let mut readings = [reading(&system, end, "y")];
     // Before the first step, by either scheme.
     for scheme in [Scheme::GaussSeidel, Scheme::Jacobi] {
-        let rows = record(&mut system, &options(0.0, scheme), &mut probes);
+        let rows = record(&mut system, &options(0.0, scheme), &mut readings);
         assert_eq!(rows, [[7.0]]);
         system.reset().unwrap();
     }
@@ -231,7 +239,9 @@ fn time_is_a_product_not_a_sum() {
             v.insert("h".to_owned(), h);
         })
         .add_to(&mut system);
-    let mut probe = system.probe(clock, &["t", "h"]).unwrap();
+    let mut probe = system.probe(clock).unwrap();
+    let times = probe.reals(&["t", "h"]).unwrap();
+    let mut sample = probe.sample();
     let options = RunOptions {
         start: 5.0,
         stop: 105.0,
@@ -243,8 +253,8 @@ fn time_is_a_product_not_a_sum() {
             let k = ctx.step() as f64;
             assert_eq!(ctx.time(), 5.0 + k * 0.1);
             if ctx.step() > 0 {
-                ctx.read(&mut probe).unwrap();
-                assert_eq!(probe.reals(), [5.0 + (k - 1.0) * 0.1, 0.1]);
+                ctx.read(&mut sample).unwrap();
+                assert_eq!(sample.get(times), [5.0 + (k - 1.0) * 0.1, 0.1]);
             }
             GO_ON
         })
@@ -386,8 +396,8 @@ fn a_failure_stops_the_run_and_says_everything() {
 fn a_failed_slave_and_its_dependents_leave_and_the_rest_goes_on() {
     for scheme in [Scheme::GaussSeidel, Scheme::Jacobi] {
         let (mut system, [_, bad, shadow, good], journal) = family("bad", "step", 3);
-        let mut count = system.probe(good, &["n"]).unwrap();
-        let mut of_bad = system.probe(bad, &["est"]).unwrap();
+        let (mut of_good, count) = reading(&system, good, "n");
+        let (mut of_bad, _) = reading(&system, bad, "est");
         let report = system
             .run(
                 &RunOptions {
@@ -401,13 +411,13 @@ fn a_failed_slave_and_its_dependents_leave_and_the_rest_goes_on() {
                         (alive, alive, true)
                     );
                     assert_eq!(ctx.read(&mut of_bad).is_ok(), alive);
-                    ctx.read(&mut count).unwrap();
+                    ctx.read(&mut of_good).unwrap();
                     GO_ON
                 },
             )
             .unwrap();
         assert_eq!(
-            (report.steps, count.reals()[0]),
+            (report.steps, of_good.get(count)),
             (10, 10.0),
             "the good one has stepped all the way"
         );
@@ -483,12 +493,12 @@ fn a_failed_end_concerns_one_slave_alone() {
 fn a_failed_reading_counts_as_a_failed_slave() {
     // Outputs of `bad` are fetched twice in initialization and once in each step: the third and the fourth call.
     let (mut system, [_, bad, _, _], _) = family("bad", "get_real", 4);
-    let mut probe = system.probe(bad, &["p"]).unwrap();
+    let (mut sample, _) = reading(&system, bad, "p");
     let mut reads = Vec::new();
     let report = system
         .run(&isolating(5.0), |ctx| {
             if ctx.step() > 0 {
-                reads.push(ctx.read(&mut probe).map_err(|e| e.to_string()));
+                reads.push(ctx.read(&mut sample).map_err(|e| e.to_string()));
             }
             GO_ON
         })
@@ -505,13 +515,13 @@ fn a_failed_reading_counts_as_a_failed_slave() {
 
     // Without isolation the run ends with the error, even if the callback does not care.
     let (mut system, [_, bad, _, _], _) = family("bad", "get_real", 4);
-    let mut probe = system.probe(bad, &["p"]).unwrap();
+    let (mut sample, _) = reading(&system, bad, "p");
     let mut last = 0;
     let error = system
         .run(&options(5.0, Scheme::GaussSeidel), |ctx| {
             last = ctx.step();
             if last > 0 {
-                let _ = ctx.read(&mut probe);
+                let _ = ctx.read(&mut sample);
             }
             GO_ON
         })
@@ -567,4 +577,40 @@ fn timings_are_kept_on_request() {
     system.reset().unwrap();
     let report = system.run(&options(5.0, Scheme::Jacobi), |_| GO_ON).unwrap();
     assert!(report.timings.is_empty());
+}
+
+#[test]
+#[allow(clippy::float_cmp, reason = "copied values are exact")]
+fn handles_know_their_type_and_what_is_not_there_is_told() {
+    let journal = Journal::default();
+    let mut system = System::new();
+    let mut mock = Mock::new("m", &journal).output("r[1]", 1.0).output("r[2]", 2.0);
+    mock = mock.port("n", BaseType::Integer, Causality::Output, 5.0);
+    for (at, name) in ["p[1,1]", "p[1,2]", "p[2,1]", "p[2,2]", "r[3]"].into_iter().enumerate() {
+        mock = mock.output(name, 10.0 + at as f64);
+    }
+    let m = mock.add_to(&mut system);
+    let mut probe = system.probe(m).unwrap();
+    let count = probe.integer("n").unwrap();
+    let wrong = probe.real("n").unwrap_err();
+    assert_eq!(wrong.to_string(), "m.n is of type Integer and cannot be read as Real");
+    // Half of a vector is chosen by nobody, and moves no place of the others.
+    let half = probe.vec3("p").unwrap_err();
+    assert!(matches!(half, CosimError::UnknownVariable { .. }), "{half}");
+    assert!(matches!(
+        probe.reals(&["r[1]", "r[4]"]),
+        Err(CosimError::UnknownVariable { .. })
+    ));
+    let (matrix, vector) = (probe.matrix::<2, 2>("p").unwrap(), probe.vec3("r").unwrap());
+    let mut sample = probe.sample();
+    assert_eq!((sample.get(count), sample.get(vector)), (0, [0.0; 3]));
+    let _ = system
+        .run(&options(0.0, Scheme::GaussSeidel), |ctx| {
+            ctx.read(&mut sample).unwrap();
+            GO_ON
+        })
+        .unwrap();
+    assert_eq!(sample.get(matrix), [[10.0, 11.0], [12.0, 13.0]]);
+    assert_eq!(sample.get(vector), [1.0, 2.0, 14.0]);
+    assert_eq!(sample.get(count), 5);
 }

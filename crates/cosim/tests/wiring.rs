@@ -126,7 +126,8 @@ fn aliases_stand_in_for_names() {
     assert_eq!(system.connect_by_name().unwrap(), 1);
     // Both names are understood.
     assert_eq!(system.port(foreign, "distance"), system.port(foreign, "lidar.range"));
-    assert!(system.probe(foreign, &["distance", "lidar.range"]).is_ok());
+    let mut probe = system.probe(foreign).unwrap();
+    assert!(probe.reals(&["distance", "lidar.range"]).is_ok());
 }
 
 #[test]
@@ -141,7 +142,7 @@ fn mistaken_names_and_roles_are_explained() {
         r#"slave "a" has no variable "rnage"; did you mean "range"?"#
     );
     assert!(matches!(
-        system.probe(b, &["temperature"]).unwrap_err(),
+        system.probe(b).unwrap().real("temperature").unwrap_err(),
         CosimError::UnknownVariable { suggestion: None, .. }
     ));
     assert!(matches!(

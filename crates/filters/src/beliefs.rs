@@ -101,7 +101,8 @@ fn put(name: &str, bound: Bound, unit: &'static str, value: f64, place: &mut f64
     if !is_own(value) {
         *place = value;
     }
-    FilterError::unless(bound, name, *place, unit).map(|_| ())
+    bound.check(name, *place, unit)?;
+    Ok(())
 }
 
 impl Beliefs {
@@ -198,7 +199,7 @@ impl Beliefs {
         if let Some(a) = &mut told.reference_orbit_a_m {
             put(name, Positive, "m", value, a)?;
         } else if !is_own(value) {
-            told.reference_orbit_a_m = Some(FilterError::unless(Positive, name, value, "m")?);
+            told.reference_orbit_a_m = Some(Positive.check(name, value, "m")?);
         }
         self.gravity_over(&mut told.gravity)?;
         Ok(told)

@@ -1,7 +1,5 @@
 //! What can go wrong in a filter.
 
-use interface::Bound;
-
 /// One variant per cause; messages name the FMI variable or the epoch concerned.
 #[derive(Debug, thiserror::Error)]
 pub enum FilterError {
@@ -165,22 +163,13 @@ pub enum FilterError {
     },
 }
 
-impl FilterError {
-    /// `value` if a bound allows it.
-    ///
-    /// * `name`: the parameter's, for the message.
-    ///
-    /// # Errors
-    /// [`FilterError::OutOfRange`], naming the parameter.
-    pub(crate) fn unless(bound: Bound, name: &str, value: f64, unit: &'static str) -> Result<f64, Self> {
-        if bound.allows(value) {
-            return Ok(value);
+impl From<interface::OutOfRange> for FilterError {
+    fn from(error: interface::OutOfRange) -> Self {
+        Self::OutOfRange {
+            permitted: error.bound.words(error.unit),
+            name: error.name,
+            value: error.value,
+            unit: error.unit,
         }
-        Err(Self::OutOfRange {
-            name: name.into(),
-            value,
-            unit,
-            permitted: bound.words(unit),
-        })
     }
 }

@@ -139,7 +139,7 @@ impl Navigator {
             r: Kind::noise(&told),
             state_measured: told.frame == Frame::Lvlh,
             units,
-            off_nominal: FilterError::unless(Positive, "off_nominal", b.off_nominal, "")?,
+            off_nominal: Positive.check("off_nominal", b.off_nominal, "")?,
             study_seed: settings.study_seed,
             run: settings.run,
         };
@@ -156,8 +156,8 @@ impl Navigator {
             estimator: Kind::new(&told, b, filter.motion, gain, law.acceleration())?,
             law,
             divergence: Divergence {
-                limit: FilterError::unless(Positive, "divergence.nis", b.divergence_nis, "")?,
-                samples: FilterError::unless(Positive, "divergence.samples", f64::from(b.divergence_samples), "")?,
+                limit: Positive.check("divergence.nis", b.divergence_nis, "")?,
+                samples: Positive.check("divergence.samples", f64::from(b.divergence_samples), "")?,
                 mean: 1.0,
             },
             estimate: Estimate {

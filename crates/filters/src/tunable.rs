@@ -204,7 +204,7 @@ impl Tunables<'_> {
             }
             _ => value,
         };
-        FilterError::unless(*bound, &full, value, unit)
+        Ok(bound.check(&full, value, unit)?)
     }
 
     /// A whole-number tunable.

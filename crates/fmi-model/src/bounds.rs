@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The value -1 of a parameter that starts at "the scenario's own".
+/// The value -1 of a parameter that starts at "the mission's own".
 pub(crate) const OWN_DEFAULT: i8 = -1;
 
 /// Which values a variable takes.
@@ -14,7 +14,7 @@ pub struct Bounds<T> {
     pub max: Option<T>,
     /// Only values above 0.
     pub positive: bool,
-    /// Also -1, meaning the scenario's own.
+    /// Also -1, meaning the mission's own.
     pub own_default: bool,
 }
 
@@ -35,7 +35,7 @@ impl<T: Copy + PartialOrd + From<i8>> Bounds<T> {
         (self.own_default && value == T::from(OWN_DEFAULT)) || self.within(value)
     }
 
-    /// Whether `value` keeps to the bounds proper, leaving the scenario's own aside.
+    /// Whether `value` keeps to the bounds proper, leaving the mission's own aside.
     pub(crate) fn within(&self, value: T) -> bool {
         (!self.positive || value > T::from(0))
             && self.min.is_none_or(|min| value >= min)
@@ -69,7 +69,7 @@ impl<T: fmt::Debug> fmt::Display for Bounds<T> {
         }
         f.write_str(&parts.join(" and "))?;
         if self.own_default {
-            f.write_str(", or -1 for the scenario's own")?;
+            f.write_str(", or -1 for the mission's own")?;
         }
         Ok(())
     }
@@ -101,7 +101,7 @@ mod tests {
         assert_eq!(bounds.declared_min(), Some(-1.0));
         assert_eq!(
             bounds.to_string(),
-            "greater than 0 and at most 2.0, or -1 for the scenario's own"
+            "greater than 0 and at most 2.0, or -1 for the mission's own"
         );
     }
 

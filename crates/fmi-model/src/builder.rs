@@ -368,7 +368,7 @@ macro_rules! bounded {
                 self
             }
 
-            /// Starts at -1, which is also its declared min and means "the scenario's own"; any other value must keep to
+            /// Starts at -1, which is also its declared min and means "the mission's own"; any other value must keep to
             /// the other bounds, of which one must exclude -1.
             pub fn own_default(mut self) -> Self {
                 self.kind.bounds.own_default = true;

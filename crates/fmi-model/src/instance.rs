@@ -3,6 +3,8 @@
 //! A call that is refused (unknown or unfit variable, value out of bounds, times that do not fit) changes nothing and leaves the
 //! instance usable: arrays are checked whole before the first value is applied.
 
+use std::path::PathBuf;
+
 use crate::check::{Checked, check_settable, finite};
 use crate::error::InstanceError;
 use crate::log::Log;
@@ -19,6 +21,8 @@ use crate::variable::{Access, Entry, Scalar};
 #[derive(Debug)]
 pub struct Instance<M> {
     state: Snapshot<M>,
+    /// Where the FMU's resources are; not part of a state, which may be restored elsewhere.
+    resources: Option<PathBuf>,
 }
 
 impl<M: Model> Default for Instance<M> {
@@ -32,6 +36,24 @@ impl<M: Model> Instance<M> {
     pub fn new() -> Self {
         Self {
             state: Snapshot::start(),
+            resources: None,
+        }
+    }
+
+    /// A new instance of an FMU whose resources are in `folder`.
+    pub fn with_resources(folder: PathBuf) -> Self {
+        let mut new = Self {
+            resources: Some(folder),
+            ..Self::new()
+        };
+        new.locate();
+        new
+    }
+
+    /// Tells the model where its resources are.
+    fn locate(&mut self) {
+        if let Some(folder) = &self.resources {
+            self.state.model.set_resources(folder);
         }
     }
 
@@ -105,6 +127,7 @@ impl<M: Model> Instance<M> {
     /// As after [`Instance::new`].
     pub fn reset(&mut self) {
         self.state = Snapshot::start();
+        self.locate();
     }
 
     /// Lets the model initialise if a variable was set since it last did.
@@ -200,6 +223,7 @@ impl<M: Model> Instance<M> {
     /// Back, or on, to a state of this or another instance of the model.
     pub fn set_state(&mut self, state: Snapshot<M>) {
         self.state = state;
+        self.locate();
     }
 }
 

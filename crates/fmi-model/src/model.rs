@@ -1,5 +1,7 @@
 //! What a model is to an exporter: the [`Model`] trait and the facts around it.
 
+use std::path::Path;
+
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -24,6 +26,15 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
 
     /// A model whose variables have not been set. The start column of the table is applied to it right after.
     fn blank() -> Self;
+
+    /// Takes note of the folder with the FMU's resources: after the start column has been applied, at creation and at every
+    /// reset, and after a saved state has been restored.
+    fn set_resources(&mut self, _folder: &Path) {}
+
+    /// The identifier of an FMU that its resources make another than the one whose identifier is `own`; `None` when they do not.
+    fn identifier_with(_own: &str, _resources: &Path) -> Option<String> {
+        None
+    }
 
     /// Checks the parameters and computes the initial outputs.
     ///

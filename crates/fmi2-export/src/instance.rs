@@ -1,6 +1,7 @@
 //! One instance behind the C functions: call order and panics around what [`fmi_model::Instance`] does.
 
 use std::ffi::CString;
+use std::path::PathBuf;
 
 use fmi_model::{Category, Checked, Experiment, InstanceError, Log, Model, Phase, Scalar, Snapshot, Wanted, guarded};
 use fmi2_abi::{Fmi2Status, Fmi2StatusKind};
@@ -20,10 +21,10 @@ pub(crate) struct Instance<M> {
 }
 
 impl<M: Model> Instance<M> {
-    pub(crate) fn new(logger: Logger) -> Self {
+    pub(crate) fn new(logger: Logger, resources: Option<PathBuf>) -> Self {
         Self {
             logger,
-            model: fmi_model::Instance::new(),
+            model: resources.map_or_else(fmi_model::Instance::new, fmi_model::Instance::with_resources),
             texts: Vec::new(),
         }
     }

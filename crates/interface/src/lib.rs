@@ -11,7 +11,7 @@ pub mod render;
 pub mod signals;
 pub mod status;
 
-pub use bound::Bound;
+pub use bound::{Bound, OutOfRange};
 pub use mission::{Mission, MissionError, Navigation};
 pub use signals::Signals;
 pub use status::Status;

@@ -64,11 +64,11 @@ pub struct Port {
     pub name: &'static str,
     /// Type.
     pub kind: Kind,
-    /// Units: one for all elements or one for each group of three; `1` for none.
+    /// Units: one for all elements, one for each, or one for each group of three; `1` for none.
     pub units: &'static [&'static str],
     /// Elements.
     pub shape: Shape,
-    /// Meanings: one for all elements or one for each group of three.
+    /// Meanings: one for all elements, one for each, or one for each group of three.
     pub about: &'static [&'static str],
     /// Who offers and who reads it.
     pub role: Role,
@@ -77,17 +77,18 @@ pub struct Port {
 impl Port {
     /// Unit of an element; empty for none.
     pub fn unit(&self, element: usize) -> &'static str {
-        pick(self.units, element)
+        self.pick(self.units, element)
     }
 
     /// Meaning of an element.
     pub fn about(&self, element: usize) -> &'static str {
-        pick(self.about, element)
+        self.pick(self.about, element)
     }
-}
 
-fn pick(list: &'static [&'static str], element: usize) -> &'static str {
-    list.get(element / 3).or(list.first()).copied().unwrap_or_default()
+    fn pick(&self, list: &'static [&'static str], element: usize) -> &'static str {
+        let group = if list.len() == self.shape.len() { 1 } else { 3 };
+        list.get(element / group).or(list.first()).copied().unwrap_or_default()
+    }
 }
 
 /// The port of this name.
@@ -124,6 +125,14 @@ use Shape::{Matrix, Scalar, Vector};
 
 /// Units of the 18 states, by groups of three.
 const STATES: &[&str] = &["m", "m/s", "m/s2", "m", "m/s", "m/s2"];
+
+/// Units of a covariance of position, velocity and acceleration, 9x9, by groups of three along its rows.
+#[rustfmt::skip]
+const COVARIANCE: &[&str] = &[
+    "m2", "m2/s", "m2/s2", "m2", "m2/s", "m2/s2", "m2", "m2/s", "m2/s2",
+    "m2/s", "m2/s2", "m2/s3", "m2/s", "m2/s2", "m2/s3", "m2/s", "m2/s2", "m2/s3",
+    "m2/s2", "m2/s3", "m2/s4", "m2/s2", "m2/s3", "m2/s4", "m2/s2", "m2/s3", "m2/s4",
+];
 
 /// Every port.
 #[rustfmt::skip]
@@ -221,6 +230,38 @@ pub const PORTS: &[Port] = &[
     row(Estimate, "q.s", Real, Vector(3), &["m/s^2.5"], &["square root of the jerk density in use, axes of the estimate"]),
     row(Estimate, "q.updates", Integer, Scalar, &[], &["times the law changed its process noise"]),
     row(Estimate, "status", Enumeration("Status"), Scalar, &[], &["what the filter is doing"]),
+    row(Estimate, "cov.sigma", Real, Vector(18), STATES, &[
+        "standard deviation of the relative position; in the LVLH frame of rho",
+        "standard deviation of the relative velocity; in the LVLH frame of rho_dot",
+        "standard deviation of the target's unmodelled acceleration; in the LVLH frame of d",
+        "standard deviation of the chaser's position; in the LVLH frame 0",
+        "standard deviation of the chaser's velocity; in the LVLH frame 0",
+        "standard deviation of the accelerometer bias; in the LVLH frame 0",
+    ]),
+    row(Estimate, "innov.range", Real, Scalar, &["m"], &["range, measured minus predicted"]),
+    row(Estimate, "innov.azimuth", Real, Scalar, &["rad"], &["azimuth, measured minus predicted"]),
+    row(Estimate, "innov.elevation", Real, Scalar, &["rad"], &["elevation, measured minus predicted"]),
+    row(Estimate, "innov.s", Real, Vector(3), &["m2", "rad2", "rad2"], &[
+        "predicted variance of the range's innovation", "predicted variance of the azimuth's innovation",
+        "predicted variance of the elevation's innovation",
+    ]),
+    row(Estimate, "innov.rho", Real, Vector(3), &["m"], &["relative position, measured minus predicted, LVLH of the target"]),
+    row(Estimate, "innov.rho_s", Real, Vector(3), &["m2"], &["predicted variance of that innovation"]),
+    row(Estimate, "innov.rho_dot", Real, Vector(3), &["m/s"], &["relative velocity, measured minus predicted, LVLH of the target"]),
+    row(Estimate, "innov.rho_dot_s", Real, Vector(3), &["m2/s2"], &["predicted variance of that innovation"]),
+    row(Estimate, "q.skipped", Integer, Scalar, &[], &["updates passed by because the adaptation window was singular"]),
+    row(Estimate, "q.unsolved", Integer, Scalar, &[],
+        &["updates at which the law's solver found no solution, so that the last process noise stayed"]),
+    row(Estimate, "innov.camera", Real, Vector(2), &["rad"], &[
+        "azimuth of the camera, measured minus predicted", "elevation of the camera, measured minus predicted",
+    ]),
+    row(Estimate, "innov.camera_s", Real, Vector(2), &["rad2"], &["predicted variance of that innovation"]),
+    row(Estimate, "innov.radio", Real, Vector(2), &["m", "m/s"], &[
+        "range of the radio, measured minus predicted", "range rate of the radio, measured minus predicted",
+    ]),
+    row(Estimate, "innov.radio_s", Real, Vector(2), &["m2", "m2/s2"], &["predicted variance of that innovation"]),
+    row(Estimate, "cov.p", Real, Matrix(9, 9), COVARIANCE,
+        &["covariance of r_tc, v_tc, a_t, in the LVLH frame of rho, rho_dot, d; 0 where a filter has no such state"]),
 ];
 
 #[cfg(test)]
@@ -235,6 +276,27 @@ mod tests {
                 assert!(!port.about(element).is_empty(), "{}", port.name);
                 assert_eq!(port.kind == Real, !port.unit(element).is_empty(), "{}", port.name);
             }
+            for list in [port.units, port.about] {
+                let fits = [0, 1, port.shape.len()].contains(&list.len()) || 3 * list.len() == port.shape.len();
+                assert!(fits, "{}", port.name);
+            }
+        }
+    }
+
+    #[test]
+    fn elements_have_units_of_their_own() {
+        let unit = |name, element| port(name).map_or("", |port| port.unit(element));
+        assert_eq!([0, 1, 2].map(|i| unit("innov.s", i)), ["m2", "rad2", "rad2"]);
+        assert_eq!([0, 5, 17].map(|i| unit("nav_init.x", i)), ["m", "m/s", "m/s2"]);
+        // A covariance: the product of the units of its row and of its column.
+        for (row, column, expected) in [
+            (1, 2, "m2"),
+            (2, 3, "m2/s"),
+            (3, 2, "m2/s"),
+            (5, 8, "m2/s3"),
+            (8, 8, "m2/s4"),
+        ] {
+            assert_eq!(unit("cov.p", 9 * row + column), expected, "{row} {column}");
         }
     }
 }

@@ -116,16 +116,24 @@ fn kind(port: &Port) -> String {
 }
 
 fn units(port: &Port) -> String {
-    port.units.join(", ")
+    match port.shape {
+        // Of a covariance.
+        Shape::Matrix(..) if port.units.len() > 1 => "products of the states' units".into(),
+        _ => port.units.join(", "),
+    }
 }
 
 fn meaning(port: &Port) -> String {
+    let each = port.about.len() == port.shape.len();
     match port.about {
         [one] => (*one).to_owned(),
         several => several
             .iter()
             .enumerate()
-            .map(|(group, about)| format!("{} to {}: {about}", 3 * group + 1, 3 * group + 3))
+            .map(|(group, about)| match each {
+                true => format!("{}: {about}", group + 1),
+                false => format!("{} to {}: {about}", 3 * group + 1, 3 * group + 3),
+            })
             .collect::<Vec<_>>()
             .join("; "),
     }

@@ -242,3 +242,129 @@ fn every_mission_in_the_folder_reads() {
     }
     assert!(seen >= EMBEDDED.len());
 }
+
+const FORMATION: &str = include_str!("../../../missions/formation.toml");
+const NRHO: &str = include_str!("../../../missions/nrho_venting.toml");
+
+#[test]
+fn surroundings_that_make_no_sense_are_refused_in_words() {
+    let layer = "drag = { density_kg_m3 = 1e-12, reference_altitude_m = 1e5, scale_height_m = 2e4 }";
+    let epoch = "epoch_utc = \"2020-01-01T00:00:00\" # the paper prints none\n";
+    // (file, what stands there, what takes its place, what the message must hold)
+    let cases: [(&str, &[(&str, &str)], &str); 13] = [
+        (FORMATION, &[(epoch, "")], "the places of Sun and Moon needs a date"),
+        (
+            FORMATION,
+            &[
+                (epoch, ""),
+                ("third_bodies = [\"sun\", \"moon\"]", ""),
+                ("radiation = { shadow = \"cylindrical\" }", ""),
+            ],
+            "the turn of the body's axes needs a date",
+        ),
+        (
+            FORMATION,
+            &[(
+                "third_bodies = [\"sun\", \"moon\"]",
+                "third_bodies = [\"sun\", \"sun\"]",
+            )],
+            "\"sun\" is named twice",
+        ),
+        (
+            FORMATION,
+            &[("[\"sun\", \"moon\"]", "[\"sun\", \"earth\"]")],
+            "\"earth\" is not known about",
+        ),
+        (
+            FORMATION,
+            &[("[environment]", "[environment]\nbody = \"moon\"")],
+            "\"moon\" is not known about body = Moon",
+        ),
+        (
+            FORMATION,
+            &[("2020-01-01T00:00:00", "2021-02-29T00:00:00")],
+            "is no date",
+        ),
+        (
+            FORMATION,
+            &[("2020-01-01T00:00:00", "2020-01-01")],
+            "lacks the day or the time of day",
+        ),
+        (
+            FORMATION,
+            &[("2020-01-01T00:00:00", "2020-01-01T00:00:00+01:00")],
+            "has an offset",
+        ),
+        (
+            FORMATION,
+            &[("2020-01-01T00:00:00", "1820-01-01T00:00:00")],
+            "is not in the years 1900 to 2100",
+        ),
+        (
+            FORMATION,
+            &[("2020-01-01T00:00:00", "2016-12-31T23:59:60")],
+            "has a leap second",
+        ),
+        (
+            LEO,
+            &[(
+                "[environment]",
+                "[environment]\nbody = \"moon\"\ndrag = { density_kg_m3 = 1e-12, reference_altitude_m = 1e5, scale_height_m = 2e4 }",
+            )],
+            "the turn of the air needs a date",
+        ),
+        (
+            FORMATION,
+            &[(
+                "drag = { atmosphere = \"exponential\" }",
+                "drag = {}\nrotation = { rate_deg_s = 0.004 }",
+            )],
+            "the Earth's air turns with the Earth",
+        ),
+        (LEO, &[("grid_s = 1.0", "grid_s = 0.7")], "must be a multiple of it"),
+    ];
+    for (file, changes, expected) in cases {
+        let mut text = file.to_owned();
+        for (from, to) in changes {
+            assert!(text.contains(from), "{from}");
+            text = text.replacen(from, to, 1);
+        }
+        let error = Mission::parse("m.toml", &text).unwrap_err().to_string();
+        assert!(
+            error.contains(expected) && error.contains("m.toml:"),
+            "{expected:?} is missing in: {error}"
+        );
+    }
+    let other = FORMATION
+        .replace("[environment]", "[environment]\nbody = \"other\"")
+        .replace("third_bodies = [\"sun\", \"moon\"]", "")
+        .replace("radiation = { shadow = \"cylindrical\" }", "")
+        .replace("drag = { atmosphere = \"exponential\" }", layer);
+    let error = Mission::parse("m.toml", &other).unwrap_err().to_string();
+    assert!(error.contains("environment.rotation is missing"), "{error}");
+    let turning = other.replace(
+        "body = \"other\"",
+        "body = \"other\"\nrotation = { rate_deg_s = 0.004 }",
+    );
+    Mission::parse("m.toml", &turning).unwrap();
+    let measured = NRHO.replace("[sensors.lidar]", "[sensors.metrology]\n[sensors.lidar]");
+    let error = Mission::parse("m.toml", &measured).unwrap_err().to_string();
+    assert!(error.contains("the three-body problem has not"), "{error}");
+}
+
+#[test]
+fn dates_are_taken_as_toml_or_as_text() {
+    let date = |text: &str| {
+        let file = FORMATION.replace("\"2020-01-01T00:00:00\"", text);
+        Mission::parse("m.toml", &file).unwrap().time.epoch_utc.unwrap()
+    };
+    for text in [
+        "2020-01-01T00:00:00",
+        "2020-01-01 00:00:00",
+        "\"2020-01-01 00:00:00\"",
+        "\"2020-01-01T00:00:00\"",
+    ] {
+        assert_eq!(date(text), "2020-01-01T00:00:00", "{text}");
+    }
+    assert_eq!(date("1999-12-31T23:59:59.5Z"), "1999-12-31T23:59:59.5Z");
+}

@@ -2,6 +2,17 @@
 
 use nalgebra::SVector;
 
+/// Where in a step the derivative is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// At its begin.
+    Begin,
+    /// Half way.
+    Middle,
+    /// At its end.
+    End,
+}
+
 /// One Runge-Kutta step of dx/dt = f(t, x).
 ///
 /// * `t`: time at the start of the step.
@@ -14,10 +25,25 @@ pub fn step<const N: usize>(
     h: f64,
     f: impl Fn(f64, &SVector<f64, N>) -> SVector<f64, N>,
 ) -> SVector<f64, N> {
-    let k1 = f(t, x);
-    let k2 = f(t + 0.5 * h, &(x + k1 * (0.5 * h)));
-    let k3 = f(t + 0.5 * h, &(x + k2 * (0.5 * h)));
-    let k4 = f(t + h, &(x + k3 * h));
+    let time = |stage| match stage {
+        Stage::Begin => t,
+        Stage::Middle => t + 0.5 * h,
+        Stage::End => t + h,
+    };
+    step_in_stages(x, h, |stage, x| f(time(stage), x))
+}
+
+/// [`step`] for a derivative that knows the times of its three stages: what costs much and depends on time alone is then
+/// computed once for each.
+pub fn step_in_stages<const N: usize>(
+    x: &SVector<f64, N>,
+    h: f64,
+    f: impl Fn(Stage, &SVector<f64, N>) -> SVector<f64, N>,
+) -> SVector<f64, N> {
+    let k1 = f(Stage::Begin, x);
+    let k2 = f(Stage::Middle, &(x + k1 * (0.5 * h)));
+    let k3 = f(Stage::Middle, &(x + k2 * (0.5 * h)));
+    let k4 = f(Stage::End, &(x + k3 * h));
     x + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0)
 }
 

@@ -4,8 +4,12 @@
 //! out or is an outlier is told by `truth`. Start reading at [`lidar`].
 
 pub mod accelerometer;
+pub mod camera;
 pub mod lidar;
 pub mod metrology;
 mod noise;
+pub mod radio;
+mod view;
 
 pub use noise::normal3;
+pub use view::View;

@@ -3,10 +3,8 @@
 //! Axes L of the sensor: z_L along the boresight; azimuth turns towards x_L, elevation towards y_L
 //! (`astro::frames::lidar_from_body` places them in the body).
 
+use crate::camera;
 use nalgebra::{Matrix3, Vector3};
-
-/// Half of the 5 degree field of view (Mamich and Zanetti, Sec. IV), rad.
-pub const HALF_FIELD_OF_VIEW: f64 = 2.5 * std::f64::consts::PI / 180.0;
 
 /// Range, azimuth and elevation of a target.
 ///
@@ -15,7 +13,8 @@ pub const HALF_FIELD_OF_VIEW: f64 = 2.5 * std::f64::consts::PI / 180.0;
 ///
 /// Source: Mamich and Zanetti, Eqs. (8) and (9).
 pub fn measure(rho_l: &Vector3<f64>) -> Vector3<f64> {
-    Vector3::new(rho_l.norm(), (rho_l.x / rho_l.z).atan(), (rho_l.y / rho_l.z).atan())
+    let angles = camera::measure(rho_l);
+    Vector3::new(rho_l.norm(), angles.x, angles.y)
 }
 
 /// Derivative of [`measure`] by the relative position in axes N.
@@ -27,10 +26,12 @@ pub fn measure(rho_l: &Vector3<f64>) -> Vector3<f64> {
 /// Source: Mamich and Zanetti, the first three columns of H_1 in Eq. (11).
 pub fn jacobian(r_tc_n: &Vector3<f64>, dcm_l_n: &Matrix3<f64>) -> Matrix3<f64> {
     let rho = dcm_l_n * r_tc_n;
-    let (x, y, z) = (rho.x, rho.y, rho.z);
-    let azimuth = Vector3::new(z, 0.0, -x).transpose() / (x * x + z * z);
-    let elevation = Vector3::new(0.0, z, -y).transpose() / (y * y + z * z);
-    Matrix3::from_rows(&[r_tc_n.transpose() / rho.norm(), azimuth * dcm_l_n, elevation * dcm_l_n])
+    let angles = camera::jacobian(r_tc_n, dcm_l_n);
+    Matrix3::from_rows(&[
+        r_tc_n.transpose() / rho.norm(),
+        angles.row(0).into_owned(),
+        angles.row(1).into_owned(),
+    ])
 }
 
 /// Covariance of the measurement noise.
@@ -41,14 +42,6 @@ pub fn jacobian(r_tc_n: &Vector3<f64>, dcm_l_n: &Matrix3<f64>) -> Matrix3<f64> {
 /// Source: Mamich and Zanetti, R_1 in Eq. (30).
 pub fn covariance(sigma_range: f64, sigma_angle: f64) -> Matrix3<f64> {
     Matrix3::from_diagonal(&Vector3::new(sigma_range, sigma_angle, sigma_angle).map(|sigma| sigma * sigma))
-}
-
-/// Whether a target lies in the square field of view in front of the sensor.
-///
-/// * `rho_l`: target relative to the sensor, axes L, m.
-pub fn in_view(rho_l: &Vector3<f64>) -> bool {
-    let reach = rho_l.z * HALF_FIELD_OF_VIEW.tan();
-    rho_l.z > 0.0 && rho_l.x.abs() <= reach && rho_l.y.abs() <= reach
 }
 
 #[cfg(test)]
@@ -69,21 +62,6 @@ mod tests {
     fn covariance_squares_each_channel() {
         let r = covariance(0.5, 0.25);
         assert!((r - Matrix3::from_diagonal(&Vector3::new(0.25, 0.0625, 0.0625))).amax() < 1e-16);
-    }
-
-    #[test]
-    fn view_is_a_square_in_front() {
-        let at = |x_deg: f64, y_deg: f64, z: f64| {
-            in_view(&Vector3::new(
-                x_deg.to_radians().tan() * z,
-                y_deg.to_radians().tan() * z,
-                z,
-            ))
-        };
-        assert!(at(0.0, 0.0, 10.0) && at(2.49, -2.49, 10.0));
-        assert!(!at(2.51, 0.0, 10.0) && !at(0.0, -2.51, 10.0));
-        assert!(!at(0.0, 0.0, -10.0), "behind the sensor");
-        assert!(!in_view(&Vector3::zeros()) && !in_view(&Vector3::repeat(f64::NAN)));
     }
 
     proptest! {

@@ -5,6 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use crate::StatsError;
+use crate::median::median;
 
 /// Errors of one 3-vector quantity over the runs of a study, one cell for each epoch.
 ///
@@ -197,24 +198,6 @@ pub fn mean_error_in_sigmas(quantities: &[&Ensemble], epochs: Range<usize>) -> O
     (n > 0.0).then(|| f64::sqrt(sum / n))
 }
 
-/// Median of the finite values; `None` when there are none. The mean of the two middle ones for an even count.
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut values: Vec<f64> = values.filter(|v| v.is_finite()).collect();
-    if values.is_empty() {
-        return None;
-    }
-    let half = values.len() / 2;
-    let even = values.len().is_multiple_of(2);
-    let (below, middle, _) = values.select_nth_unstable_by(half, f64::total_cmp);
-    let middle = *middle;
-    let partner = if even {
-        below.iter().copied().max_by(f64::total_cmp)
-    } else {
-        None
-    };
-    Some(partner.map_or(middle, |p| 0.5 * (p + middle)))
-}
-
 fn clip(range: Range<usize>, len: usize) -> Range<usize> {
     range.start.min(len)..range.end.min(len)
 }
@@ -229,13 +212,6 @@ fn require_finite(what: &'static str, epoch: usize, v: &Vector3<f64>) -> Result<
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn median_of_odd_even_and_none() {
-        assert_eq!(median([3.0, f64::NAN, 1.0, 2.0].into_iter()), Some(2.0));
-        assert_eq!(median([4.0, 1.0, 3.0, 2.0].into_iter()), Some(2.5));
-        assert_eq!(median([f64::NAN].into_iter()), None);
-    }
 
     #[test]
     fn moments_of_a_case_worked_by_hand() {

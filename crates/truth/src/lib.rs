@@ -34,5 +34,5 @@ pub use overrides::{Forces, OWN, PARAMETERS, Parameter, Params};
 pub use relative::Relative;
 pub use sampling::{AccelerometerSample, CameraSample, LidarSample, MetrologySample, RadioSample, SensorSample};
 pub use simulation::{Inputs, Moment, Simulation};
-pub use timeline::{Event, Push, Side, Thrust, Timeline, Vector};
+pub use timeline::{Event, Push, Side, Thrust, Timeline, Turning, Vector};
 pub use vehicles::Vehicles;

@@ -1,7 +1,7 @@
 //! The parameters of a run, named as in the FMU: what a user sets goes before what the mission file states.
 
 use interface::Bound;
-use interface::mission::{Embedded, Mission, embedded};
+use interface::mission::{Choice, Mission, embedded};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -10,10 +10,8 @@ use crate::TruthError;
 /// What a user may set before a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Params {
-    /// Which of the missions that come with the project, counted from 1 among those of the `scenario` enumeration.
-    pub scenario: i32,
-    /// Path of a mission file; empty: none, the scenario counts.
-    pub mission_file: String,
+    /// Which mission.
+    pub choice: Choice,
     /// Seed of the whole study.
     pub study_seed: u32,
     /// Number of the run in the study.
@@ -30,8 +28,7 @@ impl Default for Params {
     /// The first scenario, seed 1, run 0, and the start column of [`PARAMETERS`].
     fn default() -> Self {
         Self {
-            scenario: 1,
-            mission_file: String::new(),
+            choice: Choice::default(),
             study_seed: 1,
             run: 0,
             burn_enabled: true,
@@ -42,6 +39,29 @@ impl Default for Params {
 }
 
 impl Params {
+    /// Everything at its start but the scenario, counted from 1.
+    pub fn of_scenario(scenario: i32) -> Self {
+        Self::of(Choice {
+            scenario,
+            ..Choice::default()
+        })
+    }
+
+    /// Everything at its start but the mission file.
+    pub fn of_file(path: impl Into<String>) -> Self {
+        Self::of(Choice {
+            mission_file: path.into(),
+            ..Choice::default()
+        })
+    }
+
+    fn of(choice: Choice) -> Self {
+        Self {
+            choice,
+            ..Self::default()
+        }
+    }
+
     /// Value of an element of a row of [`PARAMETERS`]; its start where there is no such element.
     pub fn value(&self, row: usize, element: usize) -> f64 {
         let stored = self.values.get(row).and_then(|values| values.get(element));
@@ -58,12 +78,25 @@ impl Params {
         }
     }
 
-    /// Sets every element of a parameter by its name, unchecked; false if there is none of that name.
+    /// Sets a parameter by its name, unchecked: one element of a vector as `name[1]`, all of them as `name`. False if there is
+    /// none of that name.
     pub fn set(&mut self, name: &str, value: f64) -> bool {
-        let row = PARAMETERS.iter().position(|row| row.name == name);
-        row.and_then(|row| self.values.get_mut(row))
-            .map(|values| values.fill(value))
-            .is_some()
+        let (name, element) = match name.strip_suffix(']').and_then(|name| name.split_once('[')) {
+            Some((name, element)) => (name, element.parse::<usize>().ok()),
+            None => (name, None),
+        };
+        let Some(row) = PARAMETERS.iter().position(|row| row.name == name) else {
+            return false;
+        };
+        let Some(values) = self.values.get_mut(row) else {
+            return false;
+        };
+        let places = match element {
+            Some(element) => values.get_mut(element.wrapping_sub(1)..element).unwrap_or_default(),
+            None => values.as_mut_slice(),
+        };
+        places.fill(value);
+        !places.is_empty()
     }
 
     /// The mission that the file or the scenario names, changed by every parameter that is not left to it.
@@ -71,11 +104,7 @@ impl Params {
     /// # Errors
     /// When the mission cannot be read, does not exist, or a parameter is out of range.
     pub fn run(&self) -> Result<Run, TruthError> {
-        let mission = if self.mission_file.is_empty() {
-            self.scenario()?.mission()?
-        } else {
-            Mission::read(self.mission_file.as_ref())?
-        };
+        let mission = self.choice.mission()?;
         let mut run = Run {
             mission,
             study_seed: self.study_seed.into(),
@@ -111,19 +140,6 @@ impl Params {
             }
         }
         Ok(run)
-    }
-
-    fn scenario(&self) -> Result<&'static Embedded, TruthError> {
-        let place = usize::try_from(i64::from(self.scenario) - 1).ok();
-        place.and_then(|place| Embedded::scenarios().nth(place)).ok_or_else(|| {
-            let names = Embedded::scenarios()
-                .zip(1..)
-                .map(|(entry, number)| format!("{number} ({})", entry.name));
-            TruthError::Scenario {
-                ordinal: self.scenario,
-                known: names.collect::<Vec<_>>().join(", "),
-            }
-        })
     }
 }
 
@@ -355,3 +371,244 @@ pub const PARAMETERS: &[Parameter] = &[
         "noise of an outlier in multiples of the standard deviation, on range and range rate",
         sensor!(radio, |s, v| s.outlier_scale = v)),
 ];
+
+#[cfg(test)]
+#[allow(clippy::float_cmp)]
+mod tests {
+    use super::*;
+    use interface::mission::Embedded;
+
+    /// A mission with every sensor.
+    fn mission() -> Mission {
+        let text = embedded("leo_venting").unwrap().text;
+        let rest = "[sensors.camera]\n[sensors.radio]\n[sensors.metrology]\n[initial_error]";
+        Mission::parse("all.toml", &text.replace("[initial_error]", rest)).unwrap()
+    }
+
+    fn untouched() -> Run {
+        Run {
+            mission: mission(),
+            study_seed: 1,
+            run: 0,
+            vent_scale: 1.0,
+            target_burn: TargetBurn::default(),
+        }
+    }
+
+    #[test]
+    fn every_row_reads_what_it_writes_and_no_other() {
+        let elements = || {
+            PARAMETERS
+                .iter()
+                .enumerate()
+                .flat_map(|(row, p)| (0..p.len).map(move |i| (row, i)))
+        };
+        for (row, i) in elements() {
+            let mut changed = Params::default();
+            changed.set_value(row, i, 0.625);
+            for (other, j) in elements() {
+                let start = PARAMETERS[other].start;
+                let expected = if (row, i) == (other, j) { 0.625 } else { start };
+                assert_eq!(changed.value(other, j), expected, "{}[{i}]", PARAMETERS[row].name);
+            }
+            let name = PARAMETERS[row].name;
+            let name = if PARAMETERS[row].len > 1 {
+                format!("{name}[{}]", i + 1)
+            } else {
+                name.to_owned()
+            };
+            let mut named = Params::default();
+            assert!(named.set(&name, 0.625));
+            assert_eq!(named, changed, "{name}");
+        }
+        for name in [
+            "",
+            "vent",
+            "vent.scale[2]",
+            "vent.scale[0]",
+            "target_burn.a_t_n[4]",
+            "target_burn.a_t_n[x",
+        ] {
+            let mut params = Params::default();
+            assert!(!params.set(name, 1.0), "{name}");
+            assert_eq!(params, Params::default());
+        }
+    }
+
+    /// The keys of the mission that a parameter changes, as the mission's own text shows them.
+    fn differences(a: &Run, b: &Run) -> Vec<String> {
+        let lines = |run: &Run| {
+            let text = run.mission.to_toml().unwrap();
+            let mut section = String::new();
+            let mut keys = std::collections::BTreeMap::new();
+            for line in text.lines() {
+                if line.starts_with('[') {
+                    line.trim_matches(['[', ']']).clone_into(&mut section);
+                } else if let Some((key, value)) = line.split_once(" = ") {
+                    keys.insert(format!("{section}.{key}"), value.to_owned());
+                }
+            }
+            keys.insert("vent_scale".into(), run.vent_scale.to_string());
+            keys.insert("target_burn".into(), format!("{:?}", run.target_burn));
+            keys
+        };
+        let (a, b) = (lines(a), lines(b));
+        let keys: std::collections::BTreeSet<_> = a.keys().chain(b.keys()).cloned().collect();
+        keys.into_iter().filter(|key| a.get(key) != b.get(key)).collect()
+    }
+
+    /// The key that each row changes, by its name: nothing else of the mission moves.
+    #[test]
+    fn every_row_changes_what_it_says_and_nothing_else() {
+        let before = untouched();
+        for row in PARAMETERS {
+            let mut run = before.clone();
+            (row.apply)(&mut run, &vec![0.25; row.len]);
+            let (owner, quantity) = row.name.split_once('.').unwrap_or(("time", row.name));
+            let expected = match (owner, quantity) {
+                ("time", _) => "time.sample_period_s".to_owned(),
+                ("vent", _) => "vent_scale".to_owned(),
+                ("target_burn", _) => "target_burn".to_owned(),
+                ("target" | "chaser", _) => format!("{owner}.mass_kg"),
+                ("nav_init", _) => format!("initial_error.{quantity}_{}", row.unit.replace('/', "_")),
+                (_, "sigma_angle") => format!("sensors.{owner}.sigma_angle_deg"),
+                _ if row.unit.is_empty() => format!("sensors.{owner}.{quantity}"),
+                _ => format!("sensors.{owner}.{quantity}_{}", row.unit.replace('/', "_")),
+            };
+            assert_eq!(differences(&before, &run), [expected], "{}", row.name);
+        }
+    }
+
+    #[test]
+    fn angles_are_radians_here_and_degrees_there() {
+        let mut params = Params::default();
+        params.set("lidar.sigma_angle", 0.01);
+        let run = params.run().unwrap();
+        assert!((run.mission.sensors.lidar.unwrap().sigma_angle_deg - 0.572_957_795_130_823).abs() < 1e-15);
+    }
+
+    #[test]
+    fn parameters_left_alone_leave_the_mission_alone() {
+        for (ordinal, entry) in (1..).zip(Embedded::scenarios()) {
+            assert_eq!(
+                Params::of_scenario(ordinal).run().unwrap().mission,
+                entry.mission().unwrap()
+            );
+        }
+    }
+
+    #[test]
+    fn burns_of_the_chaser_can_be_switched_off() {
+        let mut params = Params::default();
+        assert_eq!(params.run().unwrap().mission.burns.len(), 1);
+        params.burn_enabled = false;
+        assert!(params.run().unwrap().mission.burns.is_empty());
+    }
+
+    #[test]
+    fn forces_of_the_formation_are_those_of_the_mission_with_j2_alone() {
+        for (ordinal, _) in (1..).zip(Forces::ITEMS) {
+            assert_eq!(Forces::from_ordinal(ordinal) as i32 + 1, ordinal);
+        }
+        assert_eq!(Forces::from_ordinal(0), Forces::Full);
+        assert_eq!(Forces::from_ordinal(3), Forces::Full);
+        let mut params = Params::of_scenario(3);
+        params.formation_forces = Forces::J2;
+        let set = params.run().unwrap().mission;
+        let written = embedded("formation_j2").unwrap().mission().unwrap();
+        assert_eq!(set.environment, written.environment);
+        assert_eq!(
+            (set.target, set.chaser, set.sensors),
+            (written.target, written.chaser, written.sensors)
+        );
+        // It says nothing of other missions.
+        let mut other = Params::default();
+        other.formation_forces = Forces::J2;
+        assert_eq!(other.run().unwrap(), Params::default().run().unwrap());
+    }
+
+    #[test]
+    fn values_out_of_range_are_named_with_their_range() {
+        let refused = |name: &str, value: f64| {
+            let mut params = Params::default();
+            assert!(params.set(name, value), "{name}");
+            params.run().unwrap_err().to_string()
+        };
+        let own = ", or -1 for the mission's own value";
+        let cases = [
+            (
+                "lidar.sigma_range",
+                -0.5,
+                "lidar.sigma_range is -0.5: it must be finite and at least 0 m",
+                own,
+            ),
+            (
+                "lidar.dropout_probability",
+                1.5,
+                "lidar.dropout_probability is 1.5: it must be between 0 and 1",
+                own,
+            ),
+            (
+                "accelerometer.bias_time_constant",
+                0.0,
+                "accelerometer.bias_time_constant is 0: it must be finite and above 0 s",
+                own,
+            ),
+            (
+                "nav_init.sigma_position",
+                -2.0,
+                "nav_init.sigma_position is -2: it must be finite and at least 0 m",
+                own,
+            ),
+            (
+                "vent.scale",
+                -1.0,
+                "vent.scale is -1: it must be finite and at least 0",
+                "",
+            ),
+            (
+                "sample_period",
+                0.0,
+                "sample_period is 0: it must be finite and at least 0.001 s",
+                own,
+            ),
+            (
+                "chaser.mass",
+                0.0,
+                "chaser.mass is 0: it must be finite and at least 0.001 kg",
+                own,
+            ),
+            (
+                "metrology.outlier_probability",
+                -0.1,
+                "metrology.outlier_probability is -0.1: it must be between 0 and 1",
+                own,
+            ),
+            (
+                "target_burn.a_t_n[3]",
+                f64::NAN,
+                "target_burn.a_t_n[3] is NaN: it must be a finite number",
+                "",
+            ),
+        ];
+        for (name, value, expected, own) in cases {
+            assert_eq!(refused(name, value), format!("{expected}{own}"));
+        }
+        for row in PARAMETERS {
+            for value in [f64::NAN, f64::INFINITY] {
+                assert!(refused(row.name, value).starts_with(row.name));
+            }
+        }
+    }
+
+    #[test]
+    fn scenarios_are_the_entries_counted_from_one() {
+        for ordinal in [0, -1, i32::MIN, Embedded::scenarios().count() as i32 + 1] {
+            let error = Params::of_scenario(ordinal).run().unwrap_err().to_string();
+            assert!(
+                error.contains(&ordinal.to_string()) && error.contains("1 (leo_venting)"),
+                "{error}"
+            );
+        }
+    }
+}

@@ -4,6 +4,7 @@ use astro::{ClohessyWiltshire, Lvlh};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::environment::Sky;
 use crate::world::World;
 use crate::{Push, Vehicles};
 
@@ -25,12 +26,13 @@ pub struct Relative {
 }
 
 impl Relative {
-    /// The relative motion at `t`, s since the start of the run, just after which `push` acts.
-    pub(crate) fn new(world: &World, t: f64, state: &Vehicles, push: &Push, reference: &ClohessyWiltshire) -> Self {
-        let rate = world.derivative(t, state, push);
+    /// The relative motion under this sky, just after which `push` acts.
+    pub(crate) fn new(world: &World, sky: &Sky, state: &Vehicles, push: &Push, reference: &ClohessyWiltshire) -> Self {
+        let rate = world.derivative(sky, state, push);
         let lvlh = Lvlh::new(&state.r_t, &state.v_t, &rate.v_t);
         let (rho, rho_dot) = lvlh.relative(&state.r_c, &state.v_c);
-        let target_acceleration = |h| world.derivative(t + h, &moved(state, &rate, h), push).v_t;
+        let target_acceleration =
+            |h: f64| world.target_acceleration(&world.sky(sky.t + h), &moved(state, &rate, h), push);
         let jerk = (target_acceleration(JERK_STEP) - target_acceleration(-JERK_STEP)) / (2.0 * JERK_STEP);
         let alpha = lvlh.angular_acceleration(&jerk);
         let rho_ddot = lvlh.relative_acceleration(&rho, &rho_dot, &(rate.v_c - rate.v_t), &alpha);

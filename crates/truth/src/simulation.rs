@@ -8,11 +8,11 @@ use sensors::{accelerometer, metrology, normal3};
 use serde::{Deserialize, Serialize};
 
 use crate::disturbances::schedule;
+use crate::environment::Sky;
 use crate::initial::{draw_estimate, draw_measurement};
 use crate::overrides::Run;
 use crate::sampling::{Scene, Sensors};
 use crate::start::start;
-use crate::timeline::Thrust;
 use crate::world::World;
 use crate::{Params, Push, Relative, SensorSample, Timeline, TruthError, Vehicles};
 
@@ -32,15 +32,10 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    fn push(&self) -> Push {
-        let along = |n: &Vector3<f64>| Thrust {
-            n: *n,
-            ..Thrust::default()
-        };
-        Push {
-            chaser: along(&self.a_cmd_c_n),
-            target: along(&self.a_dist_t_n),
-        }
+    fn add_to(&self, mut push: Push) -> Push {
+        push.chaser.n += self.a_cmd_c_n;
+        push.target.n += self.a_dist_t_n;
+        push
     }
 
     fn check(&self, t: f64) -> Result<(), TruthError> {
@@ -72,8 +67,7 @@ pub struct Moment {
 
 /// What holds at a place in time.
 struct Instant {
-    /// s since the start of the run.
-    t: f64,
+    sky: Sky,
     state: Vehicles,
     /// What acts just after it.
     push: Push,
@@ -124,8 +118,10 @@ impl Bias {
 struct Felt {
     /// Epoch of the last sample, s since the start of the run.
     since: f64,
-    /// How far the integral has come, s likewise.
+    /// How far the integral has come.
     until: f64,
+    /// State at that time, where it lies within a grid interval.
+    there: Option<Vehicles>,
     /// m/s.
     impulse: Vector3<f64>,
 }
@@ -145,8 +141,9 @@ pub struct Simulation {
     reference: Option<ClohessyWiltshire>,
     start_time: f64,
     timeline: Timeline,
-    /// Grid intervals completed; `state` and `bias` hold at their end.
+    /// Grid intervals completed; `sky`, `state` and `bias` hold at their end.
     interval: u64,
+    sky: Sky,
     state: Vehicles,
     bias: Bias,
     felt: Felt,
@@ -180,9 +177,9 @@ impl Simulation {
         let reference = reference(&run.mission, &world, &state, sensors.have_metrology());
         let bias = Bias::new(&run);
         let begin = Instant {
-            t: 0.0,
+            sky: world.sky(0.0),
             state,
-            push: world.push_over(&timeline, 0) + inputs.push(),
+            push: inputs.add_to(world.push_over(&timeline, 0)),
             b_c_bc: bias.now,
         };
         let now = moment(&world, reference.as_ref(), start_time, &begin);
@@ -191,7 +188,7 @@ impl Simulation {
             Some(relative) if run.mission.navigation.frame == Frame::Lvlh => draw_measurement(&run, &sigma, relative),
             _ => draw_estimate(&run, &sigma, &state, &now.a_t_n, &bias.now),
         };
-        let sample = SensorSample::before_the_first(&scene(&world, reference.is_some(), &begin, None));
+        let sample = SensorSample::before_the_first(&scene(&world, sensors.have_metrology(), &begin, None));
         Ok(Self {
             notes: run.mission.notes(),
             mission: run.mission.name,
@@ -200,6 +197,7 @@ impl Simulation {
             start_time,
             timeline,
             interval: 0,
+            sky: begin.sky,
             state,
             bias,
             felt: Felt::default(),
@@ -222,6 +220,7 @@ impl Simulation {
         inputs.check(t)?;
         let t = self.checked_end(t)?;
         let end = self.locate(t - self.start_time);
+        let mut sampled = None;
         loop {
             let elapsed = self.sensors.next();
             let place = self.locate(elapsed);
@@ -232,10 +231,16 @@ impl Simulation {
                 break;
             }
             self.complete_intervals(place.interval, inputs)?;
-            self.take_sample(elapsed, place.offset, inputs);
+            let instant = self.instant(place.offset, inputs);
+            self.take_sample(elapsed, place.offset, &instant);
+            sampled = Some((place, instant));
         }
         self.complete_intervals(end.interval, inputs)?;
-        let instant = self.instant(end.offset, inputs);
+        let instant = match sampled {
+            // The usual case: the communication point is that of a sample.
+            Some((place, instant)) if place == end => instant,
+            _ => self.instant(end.offset, inputs),
+        };
         self.now = moment(&self.world, self.reference.as_ref(), t, &instant);
         finite(&self.now.state, t)
     }
@@ -305,24 +310,27 @@ impl Simulation {
         let grid = self.world.grid;
         while self.interval < interval {
             let push = self.push(self.latched.as_ref().unwrap_or(inputs));
-            let begin = self.interval as f64 * grid;
-            let end = self.world.step(begin, &self.state, &push, grid);
-            self.feel(&push, (self.interval + 1) as f64 * grid, &end);
-            self.state = end;
+            let until = (self.interval + 1) as f64 * grid;
+            let begin = self.state;
+            self.world.step(&mut self.sky, &mut self.state, &push, grid);
+            if self.sensors.measure_the_mean() {
+                let begin = self.felt.there.take().unwrap_or(begin);
+                let end = self.state;
+                self.feel(&push, &begin, until, &end);
+            }
             self.bias.step(grid);
             self.interval += 1;
             self.latched = None;
-            finite(&self.state, self.start_time + begin + grid)?;
+            finite(&self.state, self.start_time + until)?;
         }
         Ok(())
     }
 
     /// The world `offset` seconds into the present interval.
     fn instant(&mut self, offset: f64, inputs: &Inputs) -> Instant {
-        let begin = self.interval as f64 * self.world.grid;
         if offset <= 0.0 {
             return Instant {
-                t: begin,
+                sky: self.sky,
                 state: self.state,
                 push: self.push(self.latched.as_ref().unwrap_or(inputs)),
                 b_c_bc: self.bias.now,
@@ -330,25 +338,26 @@ impl Simulation {
         }
         let latched = *self.latched.get_or_insert(*inputs);
         let push = self.push(&latched);
+        let (mut sky, mut state) = (self.sky, self.state);
+        self.world.step(&mut sky, &mut state, &push, offset);
         Instant {
-            t: begin + offset,
-            state: self.world.step(begin, &self.state, &push, offset),
+            sky,
+            state,
             push,
             b_c_bc: self.bias.after(offset),
         }
     }
 
-    /// Takes the next sample, `offset` seconds into the present interval and `elapsed` after the start of the run.
-    fn take_sample(&mut self, elapsed: f64, offset: f64, inputs: &Inputs) {
-        let instant = self.instant(offset, inputs);
-        if offset > 0.0 {
-            self.feel(&instant.push, elapsed, &instant.state);
+    /// Takes the next sample at an instant `offset` seconds into the present interval and `elapsed` after the start of the run.
+    fn take_sample(&mut self, elapsed: f64, offset: f64, instant: &Instant) {
+        if offset > 0.0 && self.sensors.measure_the_mean() {
+            let begin = self.felt.there.replace(instant.state).unwrap_or(self.state);
+            self.feel(&instant.push, &begin, elapsed, &instant.state);
         }
         let mean = self.mean_force(elapsed);
-        let scene = scene(&self.world, self.reference.is_some(), &instant, mean);
-        self.sample = self
-            .sensors
-            .sample(&self.sample, self.start_time + elapsed, elapsed, &scene);
+        let scene = scene(&self.world, self.sensors.have_metrology(), instant, mean);
+        let time = self.start_time + elapsed;
+        self.sensors.sample(&mut self.sample, time, elapsed, &scene);
     }
 
     /// What the accelerometer has felt since its last sample, in the mean, if that is what it measures now.
@@ -356,89 +365,100 @@ impl Simulation {
         if !(self.sensors.measure_the_mean() && self.sensors.accelerometer_due(elapsed)) {
             return None;
         }
-        let Felt { since, impulse, .. } = self.felt;
-        self.felt = Felt {
-            since: elapsed,
-            until: elapsed,
-            impulse: Vector3::zeros(),
-        };
-        Some(impulse / (elapsed - since))
+        let mean = self.felt.impulse / (elapsed - self.felt.since);
+        self.felt.since = elapsed;
+        self.felt.impulse = Vector3::zeros();
+        Some(mean)
     }
 
     /// Goes on with the integral of the specific force to `until`, s since the start of the run and within the present interval
-    /// or at its end, where the vehicles are in `end`: by the trapezoidal rule, off by (turn per interval)^2 / 12 of it.
-    fn feel(&mut self, push: &Push, until: f64, end: &Vehicles) {
-        if !self.sensors.measure_the_mean() {
-            return;
-        }
-        let begin = self.interval as f64 * self.world.grid;
-        let from = self.felt.until.max(begin);
+    /// or at its end.
+    ///
+    /// * `begin`, `end`: states where the integral stands and at `until`.
+    ///
+    /// Simpson's rule, with the state half way from the cubic through both ends: off by (turn on the way)^4 / 2880 of it.
+    fn feel(&mut self, push: &Push, begin: &Vehicles, until: f64, end: &Vehicles) {
+        let from = self.felt.until;
         let length = until - from;
         if length <= 0.0 {
             return;
         }
-        let at_from = if from > begin {
-            self.world.step(begin, &self.state, push, from - begin)
-        } else {
-            self.state
-        };
-        let felt = |t: f64, state: &Vehicles| {
-            let force =
-                self.world.surroundings(t, state).chaser.surface + self.world.push_on_chaser(t, state, &push.chaser);
-            if force == Vector3::zeros() {
-                return force;
-            }
-            self.world.dcm_bc_n(t, state) * force
-        };
-        self.felt.impulse += (felt(from, &at_from) + felt(until, end)) * (0.5 * length);
+        let felt = |t: f64, state: &Vehicles| self.world.specific_force(t, state, push);
+        let half = felt(from + 0.5 * length, &half_way(begin, end, length));
+        self.felt.impulse += (felt(from, begin) + half * 4.0 + felt(until, end)) * (length / 6.0);
         self.felt.until = until;
     }
 
     /// What acts over the present interval, given the inputs that act.
     fn push(&self, inputs: &Inputs) -> Push {
-        self.world.push_over(&self.timeline, self.interval) + inputs.push()
+        inputs.add_to(self.world.push_over(&self.timeline, self.interval))
     }
 }
 
 /// The circular motion that the true relative acceleration is told less of.
 fn reference(mission: &Mission, world: &World, state: &Vehicles, metrology: bool) -> Option<ClohessyWiltshire> {
     let mu = world.environment.mu().filter(|_| metrology)?;
-    // Without elements, the osculating axis.
-    let osculating = || 1.0 / (2.0 / state.r_t.norm() - state.v_t.norm_squared() / mu);
+    // Without elements, the osculating axis; on a hyperbola, its length.
+    let osculating = || (2.0 / state.r_t.norm() - state.v_t.norm_squared() / mu).recip().abs();
     let a = mission.navigation().reference_orbit_a_m.unwrap_or_else(osculating);
-    (a.is_finite() && a > 0.0).then(|| ClohessyWiltshire::from_semi_major_axis(a, mu))
+    Some(ClohessyWiltshire::from_semi_major_axis(a, mu))
+}
+
+/// State half way between two, from the cubic through both.
+fn half_way(a: &Vehicles, b: &Vehicles, h: f64) -> Vehicles {
+    let position = |r: [&Vector3<f64>; 2], v: [&Vector3<f64>; 2]| (r[0] + r[1]) * 0.5 + (v[0] - v[1]) * (h / 8.0);
+    let velocity = |r: [&Vector3<f64>; 2], v: [&Vector3<f64>; 2]| (r[1] - r[0]) * (1.5 / h) - (v[0] + v[1]) * 0.25;
+    let (target, chaser) = (
+        ([&a.r_t, &b.r_t], [&a.v_t, &b.v_t]),
+        ([&a.r_c, &b.r_c], [&a.v_c, &b.v_c]),
+    );
+    Vehicles {
+        r_t: position(target.0, target.1),
+        v_t: velocity(target.0, target.1),
+        r_c: position(chaser.0, chaser.1),
+        v_c: velocity(chaser.0, chaser.1),
+    }
 }
 
 /// What the outputs show of an instant.
 fn moment(world: &World, reference: Option<&ClohessyWiltshire>, time: f64, instant: &Instant) -> Moment {
-    let Instant { t, state, push, b_c_bc } = instant;
+    let Instant {
+        sky,
+        state,
+        push,
+        b_c_bc,
+    } = instant;
     Moment {
         time,
         state: *state,
-        a_t_n: world.push_on_target(*t, state, &push.target),
+        a_t_n: world.push_on_target(sky.t, state, &push.target),
         b_c_bc: *b_c_bc,
-        relative: reference.map(|reference| Relative::new(world, *t, state, push, reference)),
+        relative: reference.map(|reference| Relative::new(world, sky, state, push, reference)),
     }
 }
 
 /// What the sensors meet at an instant.
 fn scene(world: &World, metrology: bool, instant: &Instant, mean_force_c_bc: Option<Vector3<f64>>) -> Scene {
-    let Instant { t, state, push, b_c_bc } = instant;
-    let surroundings = world.surroundings(*t, state);
+    let Instant {
+        sky,
+        state,
+        push,
+        b_c_bc,
+    } = instant;
     Scene {
         r_tc_n: state.r_tc(),
-        v_tc_i_n: world.axes.inertial_velocity(&state.r_tc(), &state.v_tc()),
+        v_tc_n: state.v_tc(),
         metrology: metrology.then(|| {
-            let a_t_n = surroundings.target.sum() + world.push_on_target(*t, state, &push.target);
+            let a_t_n = world.target_acceleration(sky, state, push);
             let (rho, rho_dot) = Lvlh::new(&state.r_t, &state.v_t, &a_t_n).relative(&state.r_c, &state.v_c);
             (
                 metrology::measure(&rho, &rho_dot),
                 TargetOrbit::from_state(&state.r_t, &state.v_t),
             )
         }),
-        force_c_n: surroundings.chaser.surface + world.push_on_chaser(*t, state, &push.chaser),
+        force_c_n: world.force_on_chaser(sky, state, push),
         mean_force_c_bc,
-        dcm_bc_n: world.dcm_bc_n(*t, state),
+        dcm_bc_n: world.dcm_bc_n(sky.t, state),
         b_c_bc: *b_c_bc,
     }
 }

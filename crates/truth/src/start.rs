@@ -1,33 +1,37 @@
 //! Where a run begins: the vehicles' states as the mission states them, taken back to the start where they are those of the
 //! end.
 
-use astro::{Elements, frames};
-use interface::mission::{self, Gravity, Mission, Orbit, Relative, RelativeAxes};
+use astro::relative_axes::{Reference, in_own_axes};
+use astro::{Elements, RelativeAxes};
+use interface::mission::{self, Gravity, Mission, Orbit, Relative};
 use nalgebra::Vector3;
 
 use crate::timeline::Timeline;
 use crate::world::World;
 use crate::{TruthError, Vehicles};
 
+/// Position and velocity, axes N, m and m/s.
+type State = (Vector3<f64>, Vector3<f64>);
+
 /// State at the start of the run.
 ///
 /// # Errors
-/// When an orbit is none.
+/// When an orbit is none, or a vehicle has no axes in which the other could be placed.
 pub(crate) fn start(mission: &Mission, world: &World, timeline: &Timeline) -> Result<Vehicles, TruthError> {
     let (target, chaser) = (&mission.target, &mission.chaser);
-    let at = |orbit: &Orbit| orbit.at.is_end();
-    let at_end = target.orbit.as_ref().or(chaser.orbit.as_ref()).is_some_and(at);
+    let at_end = |orbit: &Orbit| orbit.at.is_end();
+    let at_end = target.orbit.as_ref().or(chaser.orbit.as_ref()).is_some_and(at_end);
+    let intervals = (mission.time.duration_s / world.grid).round() as u64;
     let time = if at_end { mission.time.duration_s } else { 0.0 };
     let of = |orbit: &Orbit| state(mission, world, orbit);
     let stated = match ((&target.orbit, &target.relative), (&chaser.orbit, &chaser.relative)) {
         ((Some(target), _), (Some(chaser), _)) => {
-            let (r_t, v_t) = of(target)?;
-            let (r_c, v_c) = of(chaser)?;
+            let ((r_t, v_t), (r_c, v_c)) = (of(target)?, of(chaser)?);
             Vehicles { r_t, v_t, r_c, v_c }
         }
         ((Some(target), _), (None, Some(relative))) => {
             let (r_t, v_t) = of(target)?;
-            let (r_tc, v_tc) = placed(world, relative, time, &r_t, &v_t);
+            let (r_tc, v_tc) = beside_the_target(world, relative, time, &(r_t, v_t))?;
             Vehicles {
                 r_t,
                 v_t,
@@ -37,7 +41,7 @@ pub(crate) fn start(mission: &Mission, world: &World, timeline: &Timeline) -> Re
         }
         ((None, Some(relative)), (Some(chaser), _)) => {
             let (r_c, v_c) = of(chaser)?;
-            let (r_tc, v_tc) = placed(world, relative, time, &r_c, &v_c);
+            let (r_tc, v_tc) = beside_the_chaser(world, relative, time, &(r_c, v_c))?;
             Vehicles {
                 r_t: r_c + r_tc,
                 v_t: v_c + v_tc,
@@ -47,15 +51,15 @@ pub(crate) fn start(mission: &Mission, world: &World, timeline: &Timeline) -> Re
         }
         _ => return Err(TruthError::NoOrbit),
     };
-    if !at_end {
-        return Ok(stated);
-    }
-    let intervals = (mission.time.duration_s / world.grid).round() as u64;
-    Ok(world.back_propagate(&timeline.back_propagated(), &stated, intervals))
+    Ok(if at_end {
+        world.back_propagate(&timeline.back_propagated(), &stated, intervals)
+    } else {
+        stated
+    })
 }
 
 /// Position and velocity of an orbit, axes N.
-fn state(mission: &Mission, world: &World, orbit: &Orbit) -> Result<(Vector3<f64>, Vector3<f64>), TruthError> {
+fn state(mission: &Mission, world: &World, orbit: &Orbit) -> Result<State, TruthError> {
     if let Some(e) = &orbit.elements {
         let mu = world.environment.mu().ok_or(TruthError::NoOrbit)?;
         return Ok(elements(e).to_state(mu)?);
@@ -86,34 +90,35 @@ fn elements(e: &mission::Elements) -> Elements {
     }
 }
 
-/// Target minus chaser in axes N.
+fn axes(of: mission::RelativeAxes) -> RelativeAxes {
+    match of {
+        mission::RelativeAxes::N => RelativeAxes::N,
+        mission::RelativeAxes::Inertial => RelativeAxes::Inertial,
+        mission::RelativeAxes::Rtn => RelativeAxes::Rtn,
+        mission::RelativeAxes::Lvlh => RelativeAxes::Lvlh,
+    }
+}
+
+/// Target minus chaser, where the target's orbit is known.
 ///
 /// * `time`: s since the start of the run.
-/// * `r`, `v`: of the vehicle whose orbit is given, axes N.
-fn placed(
-    world: &World,
-    relative: &Relative,
-    time: f64,
-    r: &Vector3<f64>,
-    v: &Vector3<f64>,
-) -> (Vector3<f64>, Vector3<f64>) {
-    let (r_tc, v_tc) = (Vector3::from(relative.r_tc_m), Vector3::from(relative.v_tc_m_s));
-    match relative.axes {
-        RelativeAxes::N => (r_tc, v_tc),
-        RelativeAxes::Inertial => {
-            let dcm = world.axes.dcm_n_i(time);
-            let r_tc = dcm * r_tc;
-            (r_tc, world.axes.velocity_in_n(&r_tc, &(dcm * v_tc)))
-        }
-        RelativeAxes::Rtn => {
-            let dcm = frames::rtn(r, v);
-            (dcm.tr_mul(&r_tc), dcm.tr_mul(&v_tc))
-        }
-        RelativeAxes::Lvlh => {
-            let dcm = frames::rtn(r, v);
-            let r_tc = dcm.tr_mul(&r_tc);
-            let omega = r.cross(v) / r.norm_squared();
-            (r_tc, dcm.tr_mul(&v_tc) + omega.cross(&r_tc))
-        }
-    }
+fn beside_the_target(world: &World, relative: &Relative, time: f64, (r_t, v_t): &State) -> Result<State, TruthError> {
+    let a_t = world.free_target(&world.sky(time), r_t, v_t);
+    let reference = Reference::new(world.axes.at(time), r_t, v_t, &a_t);
+    let (r_tc, v_tc) = (relative.r_tc_m.into(), relative.v_tc_m_s.into());
+    Ok(reference.to_n(axes(relative.axes), &r_tc, &v_tc)?)
+}
+
+/// Target minus chaser, where the chaser's orbit is known: the axes are those of the target all the same.
+///
+/// * `time`: s since the start of the run.
+fn beside_the_chaser(world: &World, relative: &Relative, time: f64, (r_c, v_c): &State) -> Result<State, TruthError> {
+    let sky = world.sky(time);
+    Ok(in_own_axes(
+        world.axes.at(time),
+        (r_c, v_c),
+        |r, v| world.free_target(&sky, r, v),
+        axes(relative.axes),
+        (&relative.r_tc_m.into(), &relative.v_tc_m_s.into()),
+    )?)
 }

@@ -1,19 +1,46 @@
 //! Scheduled pushes: what acts when, beside the surroundings.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::disturbances::profiles::Profile;
 
-/// Accelerations of one vehicle over an interval of the time grid, m/s2.
+/// Acceleration of one vehicle over an interval of the time grid.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Thrust {
-    /// Axes N.
+    /// Axes N, m/s2.
     pub n: Vector3<f64>,
-    /// Body axes; they turn with the vehicle.
+    /// What turns with the vehicle beside that; attitudes cost as much as gravity and are asked for only where they matter.
+    pub turning: Option<Turning>,
+}
+
+/// Accelerations in axes that turn with a vehicle, m/s2.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Turning {
+    /// Body axes.
     pub body: Vector3<f64>,
     /// Radial, transverse, normal of the vehicle's orbit.
     pub rtn: Vector3<f64>,
+}
+
+impl Turning {
+    /// The sum in axes N.
+    ///
+    /// * `dcm_b_n`, `dcm_rtn_n`: map N to body axes and to those of the orbit.
+    pub(crate) fn resolved(
+        &self,
+        dcm_b_n: impl FnOnce() -> Matrix3<f64>,
+        dcm_rtn_n: impl FnOnce() -> Matrix3<f64>,
+    ) -> Vector3<f64> {
+        let mut a = Vector3::zeros();
+        if self.body != Vector3::zeros() {
+            a += dcm_b_n().tr_mul(&self.body);
+        }
+        if self.rtn != Vector3::zeros() {
+            a += dcm_rtn_n().tr_mul(&self.rtn);
+        }
+        a
+    }
 }
 
 /// What acts over one interval of the time grid, beside the surroundings.
@@ -23,29 +50,6 @@ pub struct Push {
     pub target: Thrust,
     /// On the chaser.
     pub chaser: Thrust,
-}
-
-impl std::ops::Add for Thrust {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            n: self.n + other.n,
-            body: self.body + other.body,
-            rtn: self.rtn + other.rtn,
-        }
-    }
-}
-
-impl std::ops::Add for Push {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            target: self.target + other.target,
-            chaser: self.chaser + other.chaser,
-        }
-    }
 }
 
 /// Which vehicle an event pushes.
@@ -88,24 +92,27 @@ pub struct Event {
 }
 
 impl Event {
-    /// What the event does over an interval, in the mean, so that no momentum is lost at its edges.
+    /// Adds what the event does over an interval, in the mean, so that no momentum is lost at its edges.
     ///
     /// * `n_from_inertial`: turns inertial axes into N at the middle of the interval.
-    fn push_over(&self, begin: f64, length: f64, n_from_inertial: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Push {
+    fn add_to(
+        &self,
+        push: &mut Push,
+        begin: f64,
+        length: f64,
+        n_from_inertial: impl Fn(&Vector3<f64>) -> Vector3<f64>,
+    ) {
         let share = self.profile.mean(begin - self.start, length, self.duration);
-        let mut thrust = Thrust::default();
+        let thrust = match self.side {
+            Side::Target => &mut push.target,
+            Side::Chaser => &mut push.chaser,
+        };
         match &self.acceleration {
-            Vector::N(a) => thrust.n = a * share,
-            Vector::Inertial(a) => thrust.n = n_from_inertial(a) * share,
-            Vector::Body(a) => thrust.body = a * share,
-            Vector::Rtn(a) => thrust.rtn = a * share,
+            Vector::N(a) => thrust.n += a * share,
+            Vector::Inertial(a) => thrust.n += n_from_inertial(a) * share,
+            Vector::Body(a) => thrust.turning.get_or_insert_default().body += a * share,
+            Vector::Rtn(a) => thrust.turning.get_or_insert_default().rtn += a * share,
         }
-        let mut push = Push::default();
-        match self.side {
-            Side::Target => push.target = thrust,
-            Side::Chaser => push.chaser = thrust,
-        }
-        push
     }
 }
 
@@ -116,6 +123,8 @@ pub struct Timeline {
     events: Vec<Event>,
     /// The longest of them, s.
     longest: f64,
+    /// End of the last to end, s.
+    end: f64,
 }
 
 impl Timeline {
@@ -123,7 +132,8 @@ impl Timeline {
     pub fn new(mut events: Vec<Event>) -> Self {
         events.sort_by(|a, b| a.start.total_cmp(&b.start));
         let longest = events.iter().map(|e| e.duration).fold(0.0, f64::max);
-        Self { events, longest }
+        let end = events.iter().map(|e| e.start + e.duration).fold(0.0, f64::max);
+        Self { events, longest, end }
     }
 
     /// The events, by begin.
@@ -141,14 +151,19 @@ impl Timeline {
     /// * `begin`, `length`: of the interval, s since the start of the run.
     /// * `n_from_inertial`: turns inertial axes into N at the middle of the interval.
     pub fn push_over(&self, begin: f64, length: f64, n_from_inertial: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Push {
+        let mut push = Push::default();
+        // Quick where nothing has begun yet or everything is over, which is most of the time.
+        let end = begin + length;
+        if begin >= self.end || self.events.first().is_none_or(|e| e.start >= end) {
+            return push;
+        }
         let first = self.events.partition_point(|e| e.start + self.longest <= begin);
-        self.events[first..]
-            .iter()
-            .take_while(|e| e.start < begin + length)
-            .filter(|e| e.start + e.duration > begin)
-            .fold(Push::default(), |sum, event| {
-                sum + event.push_over(begin, length, &n_from_inertial)
-            })
+        for event in self.events[first..].iter().take_while(|e| e.start < end) {
+            if event.start + event.duration > begin {
+                event.add_to(&mut push, begin, length, &n_from_inertial);
+            }
+        }
+        push
     }
 }
 

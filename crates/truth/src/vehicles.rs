@@ -28,17 +28,19 @@ impl Vehicles {
     }
 
     /// The same twelve numbers, ordered as the fields, for an integrator.
+    #[inline]
     pub fn to_vector(self) -> SVector<f64, 12> {
-        let mut x = SVector::<f64, 12>::zeros();
-        for (i, part) in [self.r_t, self.v_t, self.r_c, self.v_c].iter().enumerate() {
-            x.fixed_rows_mut::<3>(3 * i).copy_from(part);
-        }
-        x
+        let Self { r_t, v_t, r_c, v_c } = self;
+        [
+            r_t.x, r_t.y, r_t.z, v_t.x, v_t.y, v_t.z, r_c.x, r_c.y, r_c.z, v_c.x, v_c.y, v_c.z,
+        ]
+        .into()
     }
 
     /// Undoes [`Vehicles::to_vector`].
+    #[inline]
     pub fn from_vector(x: &SVector<f64, 12>) -> Self {
-        let part = |i: usize| x.fixed_rows::<3>(3 * i).into_owned();
+        let part = |i: usize| Vector3::new(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
         Self {
             r_t: part(0),
             v_t: part(1),

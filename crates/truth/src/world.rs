@@ -1,13 +1,15 @@
 //! The physics of one mission: environment, vehicles and axes, made once for a run. It keeps no state of the motion.
 
-use astro::frames;
+use astro::cr3bp::InertialAxes;
+use astro::relative_axes::AxesN;
+use astro::{Cr3bpSystem, frames};
 use interface::mission::{self, Mission};
-use nalgebra::{Matrix3, Rotation3, SVector, Vector3};
-use numerics::rk4;
+use nalgebra::{Matrix3, Vector3};
+use numerics::rk4::{Stage, step_in_stages};
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::{Attitude, Sight};
-use crate::environment::{Environment, Surface, Surroundings};
+use crate::environment::{Environment, Place, Sky, Surface};
 use crate::timeline::{Push, Thrust, Timeline};
 use crate::{TruthError, Vehicles};
 
@@ -42,75 +44,56 @@ impl Craft {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Axes {
     Inertial,
-    Rotating {
-        /// Inverse of the rate of turning, s.
-        time: f64,
-        /// Angle by which N has turned from the inertial axes at `end`, rad.
-        angle_at_end: f64,
-        /// s since the start of the run.
-        end: f64,
-        /// Place of the smaller body, m.
-        secondary: Vector3<f64>,
-    },
+    Rotating { system: Cr3bpSystem, from: InertialAxes },
 }
 
 impl Axes {
-    fn of(mission: &Mission) -> Self {
-        match mission.environment.gravity.cr3bp() {
-            None => Self::Inertial,
-            Some(problem) => Self::Rotating {
-                time: problem.time_s,
-                angle_at_end: problem.inertial_angle_at_end_rad,
+    fn of(mission: &Mission) -> Result<Self, TruthError> {
+        let Some(p) = mission.environment.gravity.cr3bp() else {
+            return Ok(Self::Inertial);
+        };
+        Ok(Self::Rotating {
+            system: Cr3bpSystem::new(p.mass_ratio, p.length_m, p.time_s)?,
+            from: InertialAxes {
+                angle_at_end: p.inertial_angle_at_end_rad,
                 end: mission.time.duration_s,
-                secondary: astro::Cr3bp {
-                    mass_ratio: problem.mass_ratio,
-                }
-                .secondary()
-                    * problem.length_m,
+                time: p.time_s,
             },
-        }
+        })
     }
 
     /// Maps inertial axes to N at `t`, s since the start of the run.
     pub(crate) fn dcm_n_i(&self, t: f64) -> Matrix3<f64> {
         match self {
             Self::Inertial => Matrix3::identity(),
-            Self::Rotating {
-                time,
-                angle_at_end,
-                end,
-                ..
-            } => {
-                let angle = angle_at_end + (t - end) / time;
-                Rotation3::from_axis_angle(&Vector3::z_axis(), -angle).into_inner()
-            }
+            Self::Rotating { from, .. } => from.dcm_n_i(t),
         }
     }
 
-    /// Velocity relative to inertial axes of something at `r` (any origin) that moves with `v` in N.
-    pub(crate) fn inertial_velocity(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
+    /// Components in N of a vector that is fixed in inertial axes.
+    fn from_inertial(&self, t: f64, a: &Vector3<f64>) -> Vector3<f64> {
         match self {
-            Self::Inertial => *v,
-            Self::Rotating { time, .. } => v + Vector3::z().cross(r) / *time,
+            Self::Inertial => *a,
+            Self::Rotating { from, .. } => from.dcm_n_i(t) * a,
         }
     }
 
-    /// Velocity in N of something at `r` (any origin) whose inertial velocity is `v`; undoes [`Axes::inertial_velocity`].
-    pub(crate) fn velocity_in_n(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
-        match self {
-            Self::Inertial => *v,
-            Self::Rotating { time, .. } => v - Vector3::z().cross(r) / *time,
-        }
-    }
-
-    /// Position and inertial velocity relative to the body that is orbited.
+    /// Position and inertial velocity relative to the body that is orbited, in the three-body problem the smaller one.
     pub(crate) fn about_body(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         match self {
             Self::Inertial => (*r, *v),
-            Self::Rotating { secondary, .. } => {
-                let r = r - secondary;
-                (r, self.inertial_velocity(&r, v))
-            }
+            Self::Rotating { system, .. } => system.about_secondary(r, v),
+        }
+    }
+
+    /// The axes as they stand at `t`, s since the start of the run.
+    pub(crate) fn at(&self, t: f64) -> AxesN {
+        match self {
+            Self::Inertial => AxesN::Inertial,
+            Self::Rotating { system, from } => AxesN::Rotating {
+                system: *system,
+                angle: from.angle(t),
+            },
         }
     }
 }
@@ -123,118 +106,166 @@ impl World {
     pub(crate) fn new(mission: &Mission) -> Result<Self, TruthError> {
         Ok(Self {
             environment: Environment::of(mission)?,
-            axes: Axes::of(mission),
+            axes: Axes::of(mission)?,
             target: Craft::of(&mission.target),
             chaser: Craft::of(&mission.chaser),
             grid: mission.time.grid_s,
         })
     }
 
-    /// What the surroundings do to the vehicles at `t`, s since the start of the run.
-    pub(crate) fn surroundings(&self, t: f64, state: &Vehicles) -> Surroundings {
-        self.environment
-            .act(t, state, &self.target.surface, &self.chaser.surface)
+    /// What depends on time alone at `t`, s since the start of the run.
+    pub(crate) fn sky(&self, t: f64) -> Sky {
+        self.environment.sky(t)
     }
 
     /// Rate of change of the state: velocities and accelerations in the places of positions and velocities.
     ///
-    /// * `t`: s since the start of the run.
     /// * `push`: what acts beside the surroundings.
-    pub(crate) fn derivative(&self, t: f64, state: &Vehicles, push: &Push) -> Vehicles {
-        let Surroundings { target, chaser } = self.surroundings(t, state);
+    #[inline]
+    pub(crate) fn derivative(&self, sky: &Sky, state: &Vehicles, push: &Push) -> Vehicles {
         Vehicles {
             r_t: state.v_t,
-            v_t: target.sum() + self.push_on_target(t, state, &push.target),
+            v_t: self.target_acceleration(sky, state, push),
             r_c: state.v_c,
-            v_c: chaser.sum() + self.push_on_chaser(t, state, &push.chaser),
+            v_c: self.environment.acceleration(sky, &self.chaser_place(state))
+                + self.push_on_chaser(sky.t, state, &push.chaser),
+        }
+    }
+
+    /// Acceleration of the target by everything, axes N, m/s2.
+    #[inline]
+    pub(crate) fn target_acceleration(&self, sky: &Sky, state: &Vehicles, push: &Push) -> Vector3<f64> {
+        self.free_target(sky, &state.r_t, &state.v_t) + self.push_on_target(sky.t, state, &push.target)
+    }
+
+    /// Acceleration of a target in this state by its surroundings, axes N, m/s2.
+    #[inline]
+    pub(crate) fn free_target(&self, sky: &Sky, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
+        let surface = &self.target.surface;
+        self.environment.acceleration(sky, &Place { r, v, surface })
+    }
+
+    /// Acceleration of the chaser beside gravity, which its accelerometer feels, axes N, m/s2.
+    pub(crate) fn force_on_chaser(&self, sky: &Sky, state: &Vehicles, push: &Push) -> Vector3<f64> {
+        self.environment.push(sky, &self.chaser_place(state)) + self.push_on_chaser(sky.t, state, &push.chaser)
+    }
+
+    /// The same in chaser body axes.
+    ///
+    /// * `t`: s since the start of the run.
+    pub(crate) fn specific_force(&self, t: f64, state: &Vehicles, push: &Push) -> Vector3<f64> {
+        let force = self.force_on_chaser(&self.sky(t), state, push);
+        if force == Vector3::zeros() {
+            return force;
+        }
+        self.dcm_bc_n(t, state) * force
+    }
+
+    fn chaser_place<'a>(&'a self, state: &'a Vehicles) -> Place<'a> {
+        Place {
+            r: &state.r_c,
+            v: &state.v_c,
+            surface: &self.chaser.surface,
         }
     }
 
     /// Acceleration of the target by `thrust`, axes N, m/s2.
+    ///
+    /// * `t`: s since the start of the run.
+    #[inline]
     pub(crate) fn push_on_target(&self, t: f64, state: &Vehicles, thrust: &Thrust) -> Vector3<f64> {
-        resolved(
-            thrust,
-            || self.dcm_bt_n(t, state),
-            || self.about(&state.r_t, &state.v_t),
-        )
+        match &thrust.turning {
+            None => thrust.n,
+            Some(turning) => {
+                let rtn = || self.dcm_rtn_n(&state.r_t, &state.v_t);
+                thrust.n + turning.resolved(|| self.dcm_bt_n(t, state), rtn)
+            }
+        }
     }
 
     /// Acceleration of the chaser by `thrust`, axes N, m/s2.
+    ///
+    /// * `t`: s since the start of the run.
+    #[inline]
     pub(crate) fn push_on_chaser(&self, t: f64, state: &Vehicles, thrust: &Thrust) -> Vector3<f64> {
-        resolved(
-            thrust,
-            || self.dcm_bc_n(t, state),
-            || self.about(&state.r_c, &state.v_c),
-        )
+        match &thrust.turning {
+            None => thrust.n,
+            Some(turning) => {
+                let rtn = || self.dcm_rtn_n(&state.r_c, &state.v_c);
+                thrust.n + turning.resolved(|| self.dcm_bc_n(t, state), rtn)
+            }
+        }
     }
 
     /// Attitude of the target: maps N to target body axes.
+    ///
+    /// * `t`: s since the start of the run.
     pub(crate) fn dcm_bt_n(&self, t: f64, state: &Vehicles) -> Matrix3<f64> {
-        let sight = self.sight(t, &state.r_t, &state.v_t, -state.r_tc(), -state.v_tc());
-        self.target.attitude.dcm_b_n(&sight)
+        self.target.attitude.dcm_b_n(&Sight {
+            t,
+            axes: &self.axes,
+            r: &state.r_t,
+            v: &state.v_t,
+            r_other: -state.r_tc(),
+            v_other: -state.v_tc(),
+        })
     }
 
     /// Attitude of the chaser: maps N to chaser body axes.
+    ///
+    /// * `t`: s since the start of the run.
     pub(crate) fn dcm_bc_n(&self, t: f64, state: &Vehicles) -> Matrix3<f64> {
-        let sight = self.sight(t, &state.r_c, &state.v_c, state.r_tc(), state.v_tc());
-        self.chaser.attitude.dcm_b_n(&sight)
-    }
-
-    fn about(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
-        self.axes.about_body(r, v)
-    }
-
-    fn sight(&self, t: f64, r: &Vector3<f64>, v: &Vector3<f64>, r_other: Vector3<f64>, v_other: Vector3<f64>) -> Sight {
-        let (r, v) = self.about(r, v);
-        Sight {
+        self.chaser.attitude.dcm_b_n(&Sight {
             t,
-            r,
-            v,
-            r_other,
-            v_other,
-            normal: r.cross(&v),
-            dcm_n_i: self.axes.dcm_n_i(t),
-        }
+            axes: &self.axes,
+            r: &state.r_c,
+            v: &state.v_c,
+            r_other: state.r_tc(),
+            v_other: state.v_tc(),
+        })
+    }
+
+    /// Maps N to radial, transverse, normal of an orbit.
+    fn dcm_rtn_n(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Matrix3<f64> {
+        let (r, v) = self.axes.about_body(r, v);
+        frames::rtn(&r, &v)
     }
 
     /// What the timeline does over a grid interval.
     pub(crate) fn push_over(&self, timeline: &Timeline, interval: u64) -> Push {
         let begin = interval as f64 * self.grid;
-        timeline.push_over(begin, self.grid, |a| self.axes.dcm_n_i(begin + 0.5 * self.grid) * a)
+        let middle = begin + 0.5 * self.grid;
+        timeline.push_over(begin, self.grid, |a| self.axes.from_inertial(middle, a))
     }
 
-    /// State at the end of a step of length `h` (negative: backwards) that begins at `t`, s since the start of the run.
-    pub(crate) fn step(&self, t: f64, state: &Vehicles, push: &Push, h: f64) -> Vehicles {
-        let end = rk4::step(t, &state.to_vector(), h, |t, x| -> SVector<f64, 12> {
-            self.derivative(t, &Vehicles::from_vector(x), push).to_vector()
+    /// Goes on by a step of length `h`, s; negative: backwards.
+    ///
+    /// * `sky`, `state`: at its begin, and then at its end.
+    pub(crate) fn step(&self, sky: &mut Sky, state: &mut Vehicles, push: &Push, h: f64) {
+        let (middle, end) = (self.sky(sky.t + 0.5 * h), self.sky(sky.t + h));
+        let x = step_in_stages(&state.to_vector(), h, |stage, x| {
+            let sky = match stage {
+                Stage::Begin => &*sky,
+                Stage::Middle => &middle,
+                Stage::End => &end,
+            };
+            self.derivative(sky, &Vehicles::from_vector(x), push).to_vector()
         });
-        Vehicles::from_vector(&end)
+        (*sky, *state) = (end, Vehicles::from_vector(&x));
     }
 
     /// State at the start of the run that leads to `last` when nothing but `timeline` acts.
     ///
     /// * `last`: state at the end of grid interval `intervals - 1`.
     pub(crate) fn back_propagate(&self, timeline: &Timeline, last: &Vehicles, intervals: u64) -> Vehicles {
-        (0..intervals).rev().fold(*last, |state, k| {
+        let (mut sky, mut state) = (self.sky(intervals as f64 * self.grid), *last);
+        for k in (0..intervals).rev() {
             let push = self.push_over(timeline, k);
-            self.step((k + 1) as f64 * self.grid, &state, &push, -self.grid)
-        })
+            self.step(&mut sky, &mut state, &push, -self.grid);
+        }
+        state
     }
 }
 
-/// A thrust in axes N. Attitudes cost as much as gravity and are asked for only where they matter.
-fn resolved(
-    thrust: &Thrust,
-    dcm_b_n: impl FnOnce() -> Matrix3<f64>,
-    orbit: impl FnOnce() -> (Vector3<f64>, Vector3<f64>),
-) -> Vector3<f64> {
-    let mut a = thrust.n;
-    if thrust.body != Vector3::zeros() {
-        a += dcm_b_n().tr_mul(&thrust.body);
-    }
-    if thrust.rtn != Vector3::zeros() {
-        let (r, v) = orbit();
-        a += frames::rtn(&r, &v).tr_mul(&thrust.rtn);
-    }
-    a
-}
+#[cfg(test)]
+mod tests;

@@ -3,12 +3,12 @@
 use std::io::Write;
 
 use fmi2_import::{Causality, Fmu};
+use study::filters_of;
 
 use super::list::variables;
-use super::{Verdict, say};
+use super::shared::{Verdict, say};
 use crate::HarnessError;
 use crate::cli::InspectArgs;
-use crate::models::filters_of;
 
 pub(super) fn inspect(args: &InspectArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
     let fmu = Fmu::open(&args.path)?;

@@ -5,12 +5,13 @@ use std::io::Write;
 use comfy_table::{ContentArrangement, Table, presets};
 use fmi2_import::{Causality, EnumerationItem, ModelDescription, Variable};
 use interface::annotation::Filters;
+use study::{FilterChoice, NAV, PAPER, TRUTH, filters_of, worlds};
 
-use super::{Verdict, own_fmus, say};
+use super::shared::{Verdict, own_fmus, say};
 use crate::HarnessError;
+use crate::claims::{self, Claim};
 use crate::cli::ListArgs;
-use crate::models::{NAV, PAPER, TRUTH, filters_of};
-use crate::scenarios::{Claim, SCENARIOS};
+use crate::format::lines;
 
 pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
     let paths = own_fmus(&args.build, &[TRUTH, NAV])?;
@@ -18,7 +19,7 @@ pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Verdict, Harn
         .iter()
         .map(fmi2_import::Fmu::open)
         .collect::<Result<Vec<_>, _>>()?;
-    say(out, &scenarios())?;
+    say(out, &scenarios()?)?;
     if let [truth, nav] = fmus.as_slice() {
         let filters = nav.description().items("filter");
         let told = filters_of(nav.description())?;
@@ -46,17 +47,18 @@ pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Verdict, Harn
     Ok(Verdict::Done)
 }
 
-fn scenarios() -> String {
+fn scenarios() -> Result<String, HarnessError> {
     let mut text = "Scenarios\n".to_owned();
-    for s in SCENARIOS {
+    for s in worlds::all()? {
         text.push_str(&format!("  {}: {}\n", s.name, s.about));
         text.push_str(&format!(
             "    {} s, scored from {} s; {}\n",
-            s.duration, s.scored_from, s.reference
+            s.duration_s, s.scored_from_s, s.reference
         ));
-        text.push_str(&format!("    filters: {}\n", s.filters.join(",")));
+        let filters: Vec<String> = s.filters.iter().map(FilterChoice::to_string).collect();
+        text.push_str(&format!("    filters: {}\n", filters.join(",")));
         let same = |a: &Claim, b: &Claim| (a.filter, a.text, a.bound) == (b.filter, b.text, b.bound);
-        for together in s.claims.chunk_by(same) {
+        for together in claims::of(&s.name).chunk_by(same) {
             let columns: Vec<&str> = together.iter().map(|c| c.column).collect();
             if let Some(claim) = together.first() {
                 let (columns, range) = (columns.join(", "), claim.bound.words(|end| end.to_string()));
@@ -64,7 +66,7 @@ fn scenarios() -> String {
             }
         }
     }
-    text
+    Ok(text)
 }
 
 fn describe_filter(nav: &ModelDescription, told: &Filters, item: &EnumerationItem) -> String {
@@ -131,9 +133,5 @@ pub(super) fn variables<'a>(list: impl Iterator<Item = &'a Variable>) -> String 
             meaning,
         ]);
     }
-    table
-        .lines()
-        .map(|line| line.trim_end().to_owned())
-        .collect::<Vec<_>>()
-        .join("\n")
+    lines(&table)
 }

@@ -4,9 +4,10 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::note;
+use study::{RunRow, Study, StudyResult};
+
+use super::shared::note;
 use crate::HarnessError;
-use crate::study::{RunRow, Study, StudyResult};
 
 /// How far a command has come, and how long it still takes.
 pub(super) struct Progress {
@@ -59,7 +60,7 @@ impl Progress {
 /// Runs a study under a line of its own.
 pub(super) fn run_watched(study: &Study, quiet: bool) -> Result<StudyResult, HarnessError> {
     let progress = Progress::new(study.runs.into(), "runs", quiet);
-    progress.doing(format!("{}, {}", study.spec.scenario.name, study.case));
+    progress.doing(format!("{}, {}", study.spec.world.name, study.case));
     let result = study.run(|run, rows| {
         progress.failures(study, run, rows);
         progress.advance(1);

@@ -4,32 +4,43 @@ use std::io::Write;
 
 use nalgebra::Vector3;
 
-use super::{Cast, Verdict, note, say};
+use study::{Estimate, Plan, Quantity, Record, StudyError, TruthSample, World, rehearse, run_once, score};
+
+use super::shared::{Verdict, models, note, plan, say, scratch};
 use crate::HarnessError;
 use crate::cli::ReplayArgs;
+use crate::format::{cell, finished};
 use crate::output::{prepare_file, write_whole};
-use crate::report::{cell, finished};
-use crate::run::{rehearse, run_once};
-use crate::scenarios::{self, Scenario};
-use crate::score::{Quantity, Score, score};
-use crate::signals::{Estimate, TruthSample};
 
 pub(super) fn replay(args: &ReplayArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
-    let scenario = scenarios::find(&args.scenario)?;
     prepare_file(&args.out)?;
-    let cast = Cast::new(&args.study)?;
-    let spec = cast.spec(&args.study, scenario)?;
+    let plan = Plan {
+        scenarios: if args.mission.is_none() {
+            vec![args.scenario.clone()]
+        } else {
+            Vec::new()
+        },
+        missions: args.mission.clone().into_iter().collect(),
+        ..plan(&args.study)?
+    };
+    let folder = scratch()?;
+    let world = plan
+        .worlds(folder.path())?
+        .into_iter()
+        .next()
+        .ok_or(StudyError::NoWorld)?;
+    let spec = models(&plan, &args.study.build)?.spec(&plan, &world)?;
     rehearse(&spec)?;
     let mut lines: Vec<Vec<Vec<String>>> = spec.filters.iter().map(|_| Vec::new()).collect();
     let report = run_once(&spec, args.run, |filter, truth, estimate| {
-        let score = score(scenario, truth, estimate)
+        let record = score(&world, truth, estimate)
             .ok_or_else(|| format!("the axes of the results are undefined at {} s", truth.time))?;
-        lines[filter].push(line(scenario, &spec.filters[filter].label, truth, estimate, &score));
+        lines[filter].push(line(&world, &spec.filters[filter].label, truth, estimate, &record));
         Ok(())
     });
 
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(header(scenario))?;
+    writer.write_record(header(&world))?;
     for record in lines.iter().flatten() {
         writer.write_record(record)?;
     }
@@ -52,7 +63,7 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut dyn Write) -> Result<Verdict, 
 }
 
 /// Truth and estimate in the axes of their variables; error and sigma in those of the results.
-fn header(scenario: &Scenario) -> Vec<String> {
+fn header(world: &World) -> Vec<String> {
     let mut names: Vec<String> = ["filter", "sample", "t_s", "measured", "status"]
         .map(str::to_owned)
         .to_vec();
@@ -64,13 +75,13 @@ fn header(scenario: &Scenario) -> Vec<String> {
         let axes = if quantity == "bias" {
             ["x", "y", "z"]
         } else {
-            scenario.signals.axes
+            world.axes.names()
         };
         for kind in ["err", "sigma"] {
             names.extend(axes.map(|axis| format!("{kind}_{quantity}_{axis}_{unit}")));
         }
     }
-    for residual in scenario.signals.residual.iter().flatten() {
+    for residual in world.frame.signals().innovations.iter().flatten() {
         for kind in ["", "_sigma"] {
             let columns = residual.columns().into_iter().zip(residual.units);
             names.extend(columns.map(|(name, unit)| format!("{name}{kind}_{unit}")));
@@ -80,41 +91,35 @@ fn header(scenario: &Scenario) -> Vec<String> {
     names
 }
 
-fn line(scenario: &Scenario, label: &str, truth: &TruthSample, estimate: &Estimate, score: &Score) -> Vec<String> {
+fn line(world: &World, label: &str, truth: &TruthSample, estimate: &Estimate, record: &Record) -> Vec<String> {
     let mut cells = vec![
         label.to_owned(),
         truth.count.to_string(),
         cell(Some(truth.time)),
         u8::from(truth.measured).to_string(),
-        estimate
-            .status
-            .map(|s| format!("{s:?}").to_lowercase())
-            .unwrap_or_default(),
+        estimate.status.map(|s| s.name().to_owned()).unwrap_or_default(),
     ];
     let mut push = |v: Option<Vector3<f64>>| cells.extend((0..3).map(|axis| cell(v.map(|v| v[axis]))));
-    let pairs = [
-        (Some(truth.position), Some(estimate.position)),
-        (Some(truth.velocity), Some(estimate.velocity)),
-        (truth.acceleration, estimate.acceleration),
-        (truth.bias, estimate.bias),
-    ];
-    let sigma = |index: usize| score.variances[index].map(|v| v.map(f64::sqrt));
-    for (index, (truth, estimate)) in pairs.into_iter().enumerate() {
+    let sigma = |quantity| record.variance(quantity).map(|v| v.map(f64::sqrt));
+    for (quantity, truth, estimate) in [
+        (Quantity::Position, Some(truth.position), Some(estimate.position)),
+        (Quantity::Velocity, Some(truth.velocity), Some(estimate.velocity)),
+        (Quantity::Acceleration, truth.acceleration, estimate.acceleration),
+        (Quantity::Bias, truth.bias, estimate.bias),
+    ] {
         push(truth);
         push(estimate);
-        push(score.errors[index]);
-        push(sigma(index));
+        push(record.error(quantity));
+        push(sigma(quantity));
     }
-    let residuals = [Quantity::Residual, Quantity::ResidualRate];
-    for (quantity, _) in residuals
-        .into_iter()
-        .zip(&scenario.signals.residual)
-        .filter(|(_, rows)| rows.is_some())
-    {
-        push(score.errors[quantity as usize]);
-        push(sigma(quantity as usize));
+    let innovations = [Quantity::Residual, Quantity::ResidualRate].into_iter();
+    for (quantity, rows) in innovations.zip(world.frame.signals().innovations) {
+        if rows.is_some() {
+            push(record.error(quantity));
+            push(sigma(quantity));
+        }
     }
-    cells.extend([cell(score.nees), cell(score.nis)]);
+    cells.extend([cell(record.nees()), cell(record.nis())]);
     cells.extend((0..3).map(|axis| cell(estimate.jerk_root.map(|q| q[axis]))));
     cells
 }

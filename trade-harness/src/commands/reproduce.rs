@@ -2,16 +2,17 @@
 
 use std::io::Write;
 
+use study::{Models, Plan, Study, StudyError, StudyResult, rehearse, run_once};
+
 use super::progress::run_watched;
-use super::{Cast, Verdict, closing, note, say, threads};
+use super::shared::{Verdict, closing, models, note, say};
 use crate::HarnessError;
-use crate::cli::{OptionalChoice, ReproduceArgs, StudyArgs};
+use crate::cli::ReproduceArgs;
+use crate::format::number;
 use crate::output::OutputFolder;
 use crate::report::manifest::Manifest;
-use crate::report::{summary, table, timing};
-use crate::reproduce::{CHAPTERS, Flight, Laboratory, Notebook, Request, csv, line_text, markdown};
-use crate::run::{Spec, rehearse, run_once};
-use crate::study::{Study, StudyResult};
+use crate::report::{summary, timing};
+use crate::reproduce::{CHAPTERS, Flight, Laboratory, Notebook, Request, csv, fill, line_text, markdown};
 
 /// Runs that the bounds are meant for.
 const MEANT_RUNS: u32 = 100;
@@ -29,11 +30,11 @@ pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<Ver
     }
     // Everything is set up once before the first run, so that a mistake shows at once.
     for request in CHAPTERS.iter().flat_map(|chapter| (chapter.requests)()) {
-        rehearse(&bench.spec(&request)?)?;
+        rehearse(&bench.set_up(&request)?.spec)?;
     }
     let heading = format!("{} runs of each study from seed {}.", args.work.runs, args.seed);
     let (mut said, mut chapter) = (0, "");
-    let notebook = Notebook::fill(&mut bench, |notebook| {
+    let notebook = fill(&mut bench, |notebook| {
         for (title, line) in &notebook.lines[said..] {
             if *title != chapter {
                 chapter = title;
@@ -46,7 +47,7 @@ pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<Ver
     })?;
     say(out, "\nTime per step of each filter")?;
     for row in &notebook.timings {
-        let cost = table::number(Some(row.nav_us_per_step));
+        let cost = number(Some(row.nav_us_per_step));
         say(
             out,
             &format!("{cost:>8} us  {}, {}: {}", row.scenario, row.case, row.filter),
@@ -55,7 +56,7 @@ pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<Ver
 
     let mut files = write(&folder, &notebook, &heading)?;
     let studies = notebook.studies.clone();
-    Manifest::new(&bench.cast.models, studies, bench.jobs, notebook.wall).write(&folder, &mut files)?;
+    Manifest::new(&bench.models, studies, bench.jobs, notebook.wall).write(&folder, &mut files)?;
     let missed = notebook.missed().count();
     say(
         out,
@@ -89,50 +90,51 @@ fn write(folder: &OutputFolder, notebook: &Notebook, heading: &str) -> Result<Ve
 /// Runs studies of our FMUs.
 struct Bench<'a> {
     args: &'a ReproduceArgs,
-    cast: Cast,
+    models: Models,
     jobs: usize,
 }
 
 impl<'a> Bench<'a> {
     fn new(args: &'a ReproduceArgs) -> Result<Self, HarnessError> {
+        let plan = Plan {
+            jobs: args.work.jobs,
+            ..Plan::default()
+        };
         Ok(Self {
             args,
-            cast: Cast::new(&StudyArgs::plain(args.seed, &args.build))?,
-            jobs: threads(args.work.jobs),
+            models: models(&plan, &args.build)?,
+            jobs: plan.threads(),
         })
     }
 
-    fn spec(&self, request: &Request) -> Result<Spec, HarnessError> {
-        let chosen = |filter| OptionalChoice(Some(filter));
-        let args = StudyArgs {
-            filters: request
-                .filters
-                .iter()
-                .filter_map(|f| f.parse().ok())
-                .map(chosen)
-                .collect(),
-            assignments: request.sets.clone(),
-            variations: request.variations.clone(),
-            ..StudyArgs::plain(self.args.seed, &self.args.build)
-        };
-        self.cast.spec(&args, request.scenario)
+    /// The plan of a request, with what the command line says of all of them.
+    fn plan(&self, request: &Request) -> Plan {
+        Plan {
+            seed: self.args.seed,
+            runs: self.args.work.runs.div_ceil(request.one_run_in),
+            jobs: self.args.work.jobs,
+            ..request.plan.clone()
+        }
+    }
+
+    fn set_up(&self, request: &Request) -> Result<Study, HarnessError> {
+        let plan = self.plan(request);
+        // No chapter changes a mission, so nothing is written.
+        let worlds = plan.worlds(&self.args.out)?;
+        let world = worlds.first().ok_or(StudyError::NoWorld)?;
+        Ok(self.models.study(&plan, world)?)
     }
 }
 
 impl Laboratory for Bench<'_> {
-    fn study(&mut self, request: &Request) -> Result<(Study, StudyResult), HarnessError> {
-        let study = Study {
-            spec: self.spec(request)?,
-            runs: self.args.work.runs.div_ceil(request.one_run_in),
-            jobs: self.jobs,
-            case: request.case.clone(),
-        };
+    fn study(&mut self, request: &Request) -> Result<(Plan, Study, StudyResult), HarnessError> {
+        let study = self.set_up(request)?;
         let result = run_watched(&study, self.args.build.quiet)?;
-        Ok((study, result))
+        Ok((self.plan(request), study, result))
     }
 
     fn fly(&mut self, request: &Request) -> Result<Flight, HarnessError> {
-        let spec = self.spec(request)?;
+        let spec = self.set_up(request)?.spec;
         let mut samples = Vec::with_capacity(spec.epochs());
         let report = run_once(&spec, 0, |filter, truth, _| {
             if filter == 0 {
@@ -143,7 +145,7 @@ impl Laboratory for Bench<'_> {
         let mut failed = 0;
         for failure in report.endings.iter().filter_map(|e| e.failure.as_ref()) {
             failed += 1;
-            note(&format!("failed: {} run 0: {}", request.case, failure.message));
+            note(&format!("failed: {} run 0: {}", request.case(), failure.message));
         }
         Ok(Flight { samples, failed })
     }

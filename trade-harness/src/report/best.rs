@@ -2,22 +2,21 @@
 
 use std::fmt::Write;
 
-use serde::Serialize;
+use study::Summary;
 
-use super::csv_bytes;
-use super::summary::SummaryRow;
-use super::table::{number, plain_table};
+use super::column::{self, Column, count, number, text};
 use super::timing::TimingRow;
 use crate::HarnessError;
+use crate::format::{self, Align, markdown_table, plain_table};
 use crate::tuning::standing::Objective;
 
 /// What the search says of a filter, beside its judged study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry<'a> {
     /// Judged at its best.
-    pub best: &'a SummaryRow,
+    pub best: &'a Summary,
     /// Judged as given, if that differs.
-    pub given: Option<&'a SummaryRow>,
+    pub given: Option<&'a Summary>,
     /// Cost, if steps were timed.
     pub timing: Option<&'a TimingRow>,
     /// Values found, as `NAME=VALUE NAME=VALUE`.
@@ -26,28 +25,55 @@ pub struct Entry<'a> {
     pub notes: Vec<String>,
 }
 
-row! {
-    struct Row {
-        scenario: String,
-        filter: String,
-        case: String,
-        runs: u32,
-        failed: usize,
-        diverged: usize,
-        pos_rmse_m: Option<f64>,
-        vel_rmse_m_s: Option<f64>,
-        acc_rmse_m_s2: Option<f64>,
-        nees: Option<f64>,
-        nis: Option<f64>,
-        objective: &'static str,
-        /// Place by the objective.
-        rank: Option<usize>,
-        /// Objective of the filter as given, on the same worlds.
-        given: Option<f64>,
-        tuned: String,
-        notes: String,
-    }
+/// A filter's row, with its place.
+pub(crate) struct Row {
+    best: Summary,
+    objective: Objective,
+    rank: Option<usize>,
+    /// Objective of the filter as given, on the same worlds.
+    given: Option<f64>,
+    tuned: String,
+    notes: String,
 }
+
+pub(crate) const COLUMNS: &[Column<Row>] = &[
+    text("scenario", "world", |r| r.best.scenario.as_str().into()),
+    text("filter", "filter with the preset that was best", |r| {
+        r.best.filter.as_str().into()
+    }),
+    text("case", "case", |r| r.best.case.as_str().into()),
+    count("runs", "runs it is judged by", |r| Some(r.best.runs.into())),
+    count("failed", "runs that ended with an error", |r| {
+        Some(r.best.failed as u64)
+    }),
+    count("diverged", "runs that lost the target", |r| {
+        Some(r.best.diverged as u64)
+    }),
+    number(
+        "pos_rmse_m",
+        "m",
+        "root mean square of the norm of the position error",
+        |r| r.best.position.rmse,
+    ),
+    number("vel_rmse_m_s", "m/s", "the same of velocity", |r| r.best.velocity.rmse),
+    number("acc_rmse_m_s2", "m/s2", "the same of acceleration", |r| {
+        r.best.acceleration.rmse
+    }),
+    number("nees", "1", "mean NEES over its dimension", |r| r.best.nees.mean),
+    number("nis", "1", "mean NIS over its rows", |r| r.best.nis.mean),
+    text("objective", "the error that the search made small", |r| {
+        r.objective.name().into()
+    }),
+    count("rank", "place by the objective", |r| r.rank.map(|n| n as u64)),
+    number(
+        "given",
+        "m, m/s or m/s2",
+        "objective of the filter as given, in the same worlds",
+        |r| r.given,
+    ),
+    text("tuned", "NAME=VALUE of what was found", |r| r.tuned.as_str().into()),
+    text("notes", "what to know of them", |r| r.notes.as_str().into()),
+];
 
 /// Every filter of one scenario, best objective first.
 #[derive(Debug, Clone)]
@@ -76,18 +102,8 @@ impl<'a> Ranking<'a> {
 
     fn rows(&self) -> impl Iterator<Item = Row> {
         self.entries.iter().map(|e| Row {
-            scenario: e.best.scenario.clone(),
-            filter: e.best.filter.clone(),
-            case: e.best.case.clone(),
-            runs: e.best.runs,
-            failed: e.best.failed,
-            diverged: e.best.diverged,
-            pos_rmse_m: e.best.pos_rmse_m,
-            vel_rmse_m_s: e.best.vel_rmse_m_s,
-            acc_rmse_m_s2: e.best.acc_rmse_m_s2,
-            nees: e.best.nees,
-            nis: e.best.nis,
-            objective: self.objective.name(),
+            best: e.best.clone(),
+            objective: self.objective,
             rank: self.rank(e),
             given: e.given.and_then(|g| self.objective.of(g)),
             tuned: e.tuned.clone(),
@@ -98,27 +114,21 @@ impl<'a> Ranking<'a> {
     /// Cells of the table, by filter; the headings are [`HEADERS`].
     fn cells(&self) -> impl Iterator<Item = [String; HEADERS.len()]> {
         self.rows().zip(&self.entries).map(|(row, entry)| {
-            let error = |of: Objective, value: Option<f64>| match row.rank {
-                Some(rank) if of == self.objective => format!("{} ({rank})", number(value)),
-                _ => number(value),
+            let error = |of: Objective| match row.rank {
+                Some(rank) if of == self.objective => format!("{} ({rank})", format::number(of.of(&row.best))),
+                _ => format::number(of.of(&row.best)),
             };
-            let errors = [
-                error(Objective::Position, row.pos_rmse_m),
-                error(Objective::Velocity, row.vel_rmse_m_s),
-                error(Objective::Acceleration, row.acc_rmse_m_s2),
-            ];
-            let [position, velocity, acceleration] = errors;
             [
-                row.filter,
-                position,
-                velocity,
-                acceleration,
-                number(row.nees),
-                number(row.nis),
-                row.failed.to_string(),
-                row.diverged.to_string(),
-                number(entry.timing.map(|t| t.nav_us_per_step)),
-                number(row.given),
+                row.best.filter.clone(),
+                error(Objective::Position),
+                error(Objective::Velocity),
+                error(Objective::Acceleration),
+                format::number(row.best.nees.mean),
+                format::number(row.best.nis.mean),
+                row.best.failed.to_string(),
+                row.best.diverged.to_string(),
+                format::number(entry.timing.map(|t| t.nav_us_per_step)),
+                format::number(row.given),
                 row.tuned,
                 row.notes,
             ]
@@ -147,19 +157,9 @@ impl<'a> Ranking<'a> {
 
     /// The table in Markdown, with a final newline.
     pub fn markdown(&self) -> String {
-        let line = |cells: &[String]| {
-            let cells: Vec<String> = cells.iter().map(|c| c.replace('|', "\\|").replace('\n', " ")).collect();
-            format!("| {} |\n", cells.join(" | "))
-        };
-        let rules: Vec<String> = (0..HEADERS.len())
-            .map(|i| (if is_text(i) { "---" } else { "---:" }).to_owned())
-            .collect();
-        let mut text = line(&HEADERS.map(str::to_owned));
-        text.push_str(&line(&rules));
-        for cells in self.cells() {
-            text.push_str(&line(&cells));
-        }
-        text
+        let align = |column| if is_text(column) { Align::Left } else { Align::Right };
+        let headers: Vec<_> = HEADERS.iter().enumerate().map(|(i, h)| (*h, align(i))).collect();
+        markdown_table(&headers, self.cells())
     }
 }
 
@@ -194,5 +194,6 @@ nav: time in the filter's fmi2DoStep";
 /// # Errors
 /// [`HarnessError::Csv`].
 pub fn render(rankings: &[Ranking<'_>]) -> Result<Vec<u8>, HarnessError> {
-    csv_bytes(COLUMNS, rankings.iter().flat_map(Ranking::rows))
+    let rows: Vec<Row> = rankings.iter().flat_map(Ranking::rows).collect();
+    column::render(COLUMNS, &rows)
 }

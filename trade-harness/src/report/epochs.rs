@@ -1,10 +1,9 @@
 //! `epochs/*.csv`: what the paper's figures show, for one filter, as numbers over time.
 
-use super::{cell, finished};
+use study::{FilterResult, Quantity, Spec};
+
 use crate::HarnessError;
-use crate::run::Spec;
-use crate::score::Quantity;
-use crate::study::FilterResult;
+use crate::format::{cell, finished};
 
 /// Names of the columns of one axis: quantity, axis, unit.
 struct Axis {
@@ -12,10 +11,9 @@ struct Axis {
     unit: &'static str,
 }
 
-/// The columns of a quantity; `None` where the scenario has no such rows.
+/// The columns of a quantity; `None` where the world has no such rows.
 fn axes(spec: &Spec, quantity: Quantity) -> Option<[Axis; 3]> {
-    let signals = &spec.scenario.signals;
-    let [a, b, c] = signals.axes;
+    let [a, b, c] = spec.world.axes.names();
     let named = |prefix: &str, axes: [&str; 3], unit| {
         axes.map(|axis| Axis {
             name: format!("{prefix}_{axis}"),
@@ -23,7 +21,7 @@ fn axes(spec: &Spec, quantity: Quantity) -> Option<[Axis; 3]> {
         })
     };
     let rows = |index: usize| {
-        let residual = signals.residual[index]?;
+        let residual = spec.world.frame.signals().innovations[index]?;
         let [p, q, r] = residual.columns();
         let [s, t, u] = residual.units;
         Some([(p, s), (q, t), (r, u)].map(|(name, unit)| Axis { name, unit }))

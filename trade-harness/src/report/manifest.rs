@@ -5,14 +5,12 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-use cosim::Scheme;
 use serde::Serialize;
+use study::{Model, Models, Participant, Plan, Study, scheme_name};
 
-use super::json_bytes;
 use crate::HarnessError;
-use crate::models::{Model, Models, Participant};
+use crate::format::json_bytes;
 use crate::output::OutputFolder;
-use crate::study::Study;
 
 /// The whole file; all but `environment` depends on the study alone.
 #[derive(Debug, Serialize)]
@@ -21,7 +19,7 @@ pub struct Manifest {
     pub harness_version: &'static str,
     /// Each FMU by its name in the study.
     pub models: BTreeMap<String, ModelFacts>,
-    /// Each scenario.
+    /// Each world.
     pub studies: Vec<StudyFacts>,
     /// Files written beside the manifest.
     pub files: Vec<String>,
@@ -49,7 +47,7 @@ impl ModelFacts {
     }
 }
 
-/// What one scenario's study consisted of.
+/// What one world's study consisted of.
 #[derive(Debug, Clone, Serialize)]
 pub struct StudyFacts {
     scenario: String,
@@ -63,6 +61,12 @@ pub struct StudyFacts {
     scheme: &'static str,
     truth: BTreeMap<String, String>,
     filters: Vec<FilterFacts>,
+    /// What it takes to run this study again.
+    plan: Plan,
+    /// The mission, every key of it.
+    mission: interface::Mission,
+    /// What a reader should know of it.
+    notes: Vec<String>,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -73,23 +77,21 @@ struct FilterFacts {
 
 impl StudyFacts {
     /// Facts from the definition of the study.
-    pub fn new(study: &Study) -> Self {
+    ///
+    /// * `plan`: what it was part of.
+    pub fn new(plan: &Plan, study: &Study) -> Self {
         let spec = &study.spec;
         let parameters = |p: &Participant| p.record.iter().cloned().collect();
         Self {
-            scenario: spec.scenario.name.to_owned(),
+            scenario: spec.world.name.clone(),
             case: study.case.clone(),
             runs: study.runs,
             study_seed: spec.seed,
-            duration_s: spec.scenario.duration,
-            scored_from_s: spec.scenario.scored_from,
+            duration_s: spec.world.duration_s,
+            scored_from_s: spec.world.scored_from_s,
             step_s: spec.step,
             sample_period_s: spec.sample_period,
-            scheme: if spec.scheme == Scheme::Jacobi {
-                "jacobi"
-            } else {
-                "gauss-seidel"
-            },
+            scheme: scheme_name(spec.scheme),
             truth: parameters(&spec.truth),
             filters: spec
                 .filters
@@ -99,6 +101,9 @@ impl StudyFacts {
                     parameters: parameters(f),
                 })
                 .collect(),
+            plan: plan.resolved(spec),
+            mission: spec.world.mission.clone(),
+            notes: spec.world.notes.clone(),
         }
     }
 }

@@ -1,14 +1,12 @@
 //! `runs.csv`, `failures.csv` and `paired.csv`: run by run, and filter against filter in the same runs.
 
-use serde::Serialize;
-use stats::paired_difference;
+use stats::{PairedDifference, paired_difference};
+use study::{FilterResult, RunRow, Spec};
 
-use super::csv_bytes;
+use super::column::{self, Column, count, number, text};
 use crate::HarnessError;
-use crate::run::Spec;
-use crate::study::{FilterResult, RunRow};
 
-/// One scenario's results with what names them.
+/// One world's results with what names them.
 #[derive(Debug, Clone, Copy)]
 pub struct Named<'a> {
     /// What every run shared.
@@ -19,18 +17,37 @@ pub struct Named<'a> {
     pub filters: &'a [FilterResult],
 }
 
-const RUNS: &[&str] = &[
-    "scenario",
-    "filter",
-    "case",
-    "run",
-    "failed",
-    "diverged",
-    "pos_rmse_m",
-    "vel_rmse_m_s",
-    "acc_rmse_m_s2",
-    "nees",
-    "nis",
+/// A run of a filter, with what names it.
+#[derive(Debug, Clone)]
+pub(crate) struct Line {
+    scenario: String,
+    filter: String,
+    case: String,
+    seed: i32,
+    run: RunRow,
+}
+
+pub(crate) const RUNS: &[Column<Line>] = &[
+    text("scenario", "world", |l| l.scenario.as_str().into()),
+    text("filter", "filter with its preset", |l| l.filter.as_str().into()),
+    text("case", "case", |l| l.case.as_str().into()),
+    count("run", "number of the run", |l| Some(l.run.run.into())),
+    count("failed", "1 when the run has no result", |l| {
+        Some(l.run.failure.is_some().into())
+    }),
+    count("diverged", "1 when the target was lost", |l| {
+        Some(l.run.diverged.into())
+    }),
+    number(
+        "pos_rmse_m",
+        "m",
+        "root mean square over time of the norm of the position error",
+        |l| l.run.rmse[0],
+    ),
+    number("vel_rmse_m_s", "m/s", "the same of velocity", |l| l.run.rmse[1]),
+    number("acc_rmse_m_s2", "m/s2", "the same of acceleration", |l| l.run.rmse[2]),
+    number("nees", "1", "mean over time of NEES over its dimension", |l| l.run.nees),
+    number("nis", "1", "mean over time of NIS over its rows", |l| l.run.nis),
 ];
 
 /// Contents of `runs.csv`: each run of each filter, for finding the run to replay.
@@ -38,76 +55,79 @@ const RUNS: &[&str] = &[
 /// # Errors
 /// [`HarnessError::Csv`].
 pub fn render_runs(studies: &[Named<'_>]) -> Result<Vec<u8>, HarnessError> {
-    #[derive(Serialize)]
-    struct Line<'a>(
-        &'a str,
-        &'a str,
-        &'a str,
-        u32,
-        u8,
-        u8,
-        [Option<f64>; 3],
-        [Option<f64>; 2],
-    );
-    let lines = studies.iter().flat_map(|s| {
-        s.filters.iter().flat_map(move |f| {
-            f.runs.iter().map(move |r| {
-                let (failed, diverged) = (u8::from(r.failure.is_some()), u8::from(r.diverged));
-                Line(
-                    s.spec.scenario.name,
-                    &f.label,
-                    s.case,
-                    r.run,
-                    failed,
-                    diverged,
-                    r.rmse,
-                    [r.nees, r.nis],
-                )
-            })
-        })
-    });
-    csv_bytes(RUNS, lines)
+    column::render(RUNS, &lines(studies))
 }
 
-const FAILURES: &[&str] = &["scenario", "filter", "case", "study_seed", "run", "time_s", "message"];
+fn lines(studies: &[Named<'_>]) -> Vec<Line> {
+    let filters = studies.iter().flat_map(|s| s.filters.iter().map(move |f| (s, f)));
+    let line = |(s, f, run): (&Named<'_>, &FilterResult, &RunRow)| Line {
+        scenario: s.spec.world.name.clone(),
+        filter: f.label.clone(),
+        case: s.case.to_owned(),
+        seed: s.spec.seed,
+        run: run.clone(),
+    };
+    filters
+        .flat_map(|(s, f)| f.runs.iter().map(move |run| (s, f, run)))
+        .map(line)
+        .collect()
+}
+
+pub(crate) const FAILURES: &[Column<Line>] = &[
+    text("scenario", "world", |l| l.scenario.as_str().into()),
+    text("filter", "filter with its preset", |l| l.filter.as_str().into()),
+    text("case", "case", |l| l.case.as_str().into()),
+    count("study_seed", "seed of the study", |l| u64::try_from(l.seed).ok()),
+    count("run", "number of the run", |l| Some(l.run.run.into())),
+    number("time_s", "s", "when it ended; empty before the first step", |l| {
+        l.run.failure.as_ref()?.time
+    }),
+    text("message", "what happened", |l| {
+        l.run.failure.as_ref().map_or("", |f| f.message.as_str()).into()
+    }),
+];
 
 /// Contents of `failures.csv`: every run without a result, with what it takes to replay it.
 ///
 /// # Errors
 /// [`HarnessError::Csv`].
 pub fn render_failures(studies: &[Named<'_>]) -> Result<Vec<u8>, HarnessError> {
-    #[derive(Serialize)]
-    struct Line<'a>(&'a str, &'a str, &'a str, i32, u32, Option<f64>, &'a str);
-    let lines = studies.iter().flat_map(|s| {
-        s.filters.iter().flat_map(move |f| {
-            f.runs.iter().filter_map(move |r| {
-                let failure = r.failure.as_ref()?;
-                let Named { spec, case, .. } = s;
-                let name = spec.scenario.name;
-                Some(Line(
-                    name,
-                    &f.label,
-                    case,
-                    spec.seed,
-                    r.run,
-                    failure.time,
-                    &failure.message,
-                ))
-            })
-        })
-    });
-    csv_bytes(FAILURES, lines)
+    let mut failed = lines(studies);
+    failed.retain(|l| l.run.failure.is_some());
+    column::render(FAILURES, &failed)
 }
 
-const PAIRED: &[&str] = &[
-    "scenario",
-    "filter",
-    "reference",
-    "case",
-    "quantity",
-    "runs",
-    "mean_difference",
-    "standard_error",
+/// A filter against the first one, in the runs that both have a result of.
+#[derive(Debug, Clone)]
+pub(crate) struct Pair {
+    scenario: String,
+    filter: String,
+    reference: String,
+    case: String,
+    quantity: &'static str,
+    difference: PairedDifference,
+}
+
+pub(crate) const PAIRED: &[Column<Pair>] = &[
+    text("scenario", "world", |p| p.scenario.as_str().into()),
+    text("filter", "filter with its preset", |p| p.filter.as_str().into()),
+    text("reference", "first filter of the study", |p| {
+        p.reference.as_str().into()
+    }),
+    text("case", "case", |p| p.case.as_str().into()),
+    text("quantity", "column of runs.csv, which names the unit", |p| {
+        p.quantity.into()
+    }),
+    count("runs", "runs with a result of both", |p| Some(p.difference.runs as u64)),
+    number(
+        "mean_difference",
+        "of quantity",
+        "mean over the runs of filter minus reference",
+        |p| Some(p.difference.mean),
+    ),
+    number("standard_error", "of quantity", "standard error of that mean", |p| {
+        p.difference.standard_error
+    }),
 ];
 
 /// Contents of `paired.csv`: mean over the runs of RMSE minus that of the first filter, with its standard error.
@@ -117,18 +137,7 @@ const PAIRED: &[&str] = &[
 /// # Errors
 /// [`HarnessError::Csv`].
 pub fn render_paired(studies: &[Named<'_>]) -> Result<Vec<u8>, HarnessError> {
-    #[derive(Serialize)]
-    struct Line<'a>(
-        &'a str,
-        &'a str,
-        &'a str,
-        &'a str,
-        &'static str,
-        usize,
-        f64,
-        Option<f64>,
-    );
-    let mut lines = Vec::new();
+    let mut pairs = Vec::new();
     for s in studies {
         let Some((reference, others)) = s.filters.split_first() else {
             continue;
@@ -137,22 +146,18 @@ pub fn render_paired(studies: &[Named<'_>]) -> Result<Vec<u8>, HarnessError> {
             for (index, quantity) in ["pos_rmse_m", "vel_rmse_m_s", "acc_rmse_m_s2"].into_iter().enumerate() {
                 let both = |(a, b): (&RunRow, &RunRow)| Option::zip(a.rmse[index], b.rmse[index]);
                 let (first, second): (Vec<_>, Vec<_>) = other.runs.iter().zip(&reference.runs).filter_map(both).unzip();
-                if let Some(d) = paired_difference(&first, &second)? {
-                    let name = s.spec.scenario.name;
-                    let (filter, reference) = (&other.label, &reference.label);
-                    lines.push(Line(
-                        name,
-                        filter,
-                        reference,
-                        s.case,
+                if let Some(difference) = paired_difference(&first, &second)? {
+                    pairs.push(Pair {
+                        scenario: s.spec.world.name.clone(),
+                        filter: other.label.clone(),
+                        reference: reference.label.clone(),
+                        case: s.case.to_owned(),
                         quantity,
-                        d.runs,
-                        d.mean,
-                        d.standard_error,
-                    ));
+                        difference,
+                    });
                 }
             }
         }
     }
-    csv_bytes(PAIRED, lines)
+    column::render(PAIRED, &pairs)
 }

@@ -1,71 +1,78 @@
 //! `search.csv`: every candidate of a search.
 
-use serde::Serialize;
-
-use super::csv_bytes;
+use super::column::{self, Column, count, number, text};
 use crate::HarnessError;
 use crate::tuning::standing::Objective;
-use crate::tuning::study::Searched;
+use crate::tuning::study::{Evaluation, Searched};
 
-const COLUMNS: &[&str] = &[
-    "scenario",
-    "filter",
-    "evaluation",
-    "round",
-    "values",
-    "objective",
-    "value",
-    "nees",
-    "failed",
-    "diverged",
-    "bad_runs",
-    "feasible",
+/// A candidate, with what names it.
+pub(crate) struct Line {
+    scenario: String,
+    filter: String,
+    number: u64,
+    values: String,
+    objective: Objective,
+    evaluation: Evaluation,
+}
+
+pub(crate) const COLUMNS: &[Column<Line>] = &[
+    text("scenario", "world", |l| l.scenario.as_str().into()),
+    text("filter", "filter with its preset", |l| l.filter.as_str().into()),
+    count("evaluation", "number of the candidate, from 1", |l| Some(l.number)),
+    count("round", "round of the search, from 0: the whole box", |l| {
+        Some(l.evaluation.round as u64)
+    }),
+    text(
+        "values",
+        "NAME=VALUE of each parameter; empty for the starting point",
+        |l| l.values.as_str().into(),
+    ),
+    text("objective", "the error that is made small", |l| {
+        l.objective.name().into()
+    }),
+    number("value", "m, m/s or m/s2", "RMSE of the objective", |l| {
+        l.evaluation.tally.rmse(l.objective.quantity())
+    }),
+    number("nees", "1", "mean NEES over its dimension", |l| {
+        l.evaluation.tally.nees()
+    }),
+    count("failed", "runs that ended with an error", |l| {
+        Some(l.evaluation.tally.failed.into())
+    }),
+    count("diverged", "runs that lost the target", |l| {
+        Some(l.evaluation.tally.diverged.into())
+    }),
+    count("bad_runs", "both, and runs with a covariance that is none", |l| {
+        Some(l.evaluation.tally.bad_runs.into())
+    }),
+    count(
+        "feasible",
+        "1 when no run went wrong and the NEES is within its limits",
+        |l| Some(l.evaluation.standing.feasible().into()),
+    ),
 ];
 
-/// Contents of `search.csv`, by scenario.
-///
-/// `values` is empty for the starting point; `value` is the objective, m, m/s or m/s2.
+/// Contents of `search.csv`, by world.
 ///
 /// # Errors
 /// [`HarnessError::Csv`].
 pub fn render<'a>(
-    scenarios: impl Iterator<Item = (&'a str, &'a [Searched])>,
+    worlds: impl Iterator<Item = (&'a str, &'a [Searched])>,
     objective: Objective,
 ) -> Result<Vec<u8>, HarnessError> {
-    #[derive(Serialize)]
-    struct Line<'a> {
-        scenario: &'a str,
-        filter: &'a str,
-        evaluation: usize,
-        round: usize,
-        values: String,
-        objective: &'static str,
-        value: Option<f64>,
-        nees: Option<f64>,
-        failed: u32,
-        diverged: u32,
-        bad_runs: u32,
-        feasible: u8,
+    let mut lines = Vec::new();
+    for (scenario, filter) in worlds.flat_map(|(w, filters)| filters.iter().map(move |f| (w, f))) {
+        let line = |(evaluation, number): (&Evaluation, u64)| Line {
+            scenario: scenario.to_owned(),
+            filter: filter.contender.base.label.clone(),
+            number,
+            values: settings(filter.settings(evaluation)),
+            objective,
+            evaluation: evaluation.clone(),
+        };
+        lines.extend(filter.evaluations.iter().zip(1..).map(line));
     }
-    let lines = scenarios.flat_map(|(scenario, filters)| {
-        filters.iter().flat_map(move |filter| {
-            filter.evaluations.iter().zip(1..).map(move |(e, number)| Line {
-                scenario,
-                filter: &filter.base.label,
-                evaluation: number,
-                round: e.round,
-                values: settings(filter.settings(e)),
-                objective: objective.name(),
-                value: e.tally.rmse(objective.quantity()),
-                nees: e.tally.nees(),
-                failed: e.tally.failed,
-                diverged: e.tally.diverged,
-                bad_runs: e.tally.bad_runs,
-                feasible: u8::from(e.standing.feasible()),
-            })
-        })
-    });
-    csv_bytes(COLUMNS, lines)
+    column::render(COLUMNS, &lines)
 }
 
 /// Values as `NAME=VALUE NAME=VALUE`.

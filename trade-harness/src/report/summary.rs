@@ -1,251 +1,320 @@
-//! `summary.csv`: one row for each scenario, filter and case.
+//! `summary.csv`: one row for each world, filter and case.
 
-use nalgebra::Vector3;
-use serde::Serialize;
-use stats::{mean_chi_square_bounds, mean_error_in_sigmas, rmse_standard_error, standard_error};
+use study::Summary;
 
-use super::csv_bytes;
+use super::column::{self, Column, count, find, number, text};
 use crate::HarnessError;
-use crate::score::Quantity;
-use crate::study::{FilterResult, RunRow, mean_vector};
 
-/// Confidence of the bounds of the NEES.
-const CONFIDENCE: f64 = 0.95;
+/// Every column, in order: the file, the tables on the terminal and the bounds of the papers read this list.
+pub const COLUMNS: &[Column<Summary>] = &[
+    text("scenario", "world", |s| s.scenario.as_str().into()),
+    text("filter", "filter with its preset", |s| s.filter.as_str().into()),
+    text("case", "case", |s| s.case.as_str().into()),
+    count("runs", "runs asked for", |s| Some(s.runs.into())),
+    count(
+        "failed",
+        "runs that ended with an error; they take no part in the statistics",
+        |s| Some(s.failed as u64),
+    ),
+    count("diverged", "runs that lost the target", |s| Some(s.diverged as u64)),
+    number(
+        "pos_rmse_m",
+        "m",
+        "root mean square of the norm of the position error",
+        |s| s.position.rmse,
+    ),
+    number(
+        "vel_rmse_m_s",
+        "m/s",
+        "root mean square of the norm of the velocity error",
+        |s| s.velocity.rmse,
+    ),
+    number(
+        "acc_rmse_m_s2",
+        "m/s2",
+        "root mean square of the norm of the acceleration error",
+        |s| s.acceleration.rmse,
+    ),
+    number(
+        "ratio_pos",
+        "1",
+        "sigma claimed over sigma of the errors of position, median over time and axes",
+        |s| s.position.ratio,
+    ),
+    number(
+        "ratio_vel",
+        "1",
+        "sigma claimed over sigma of the errors of velocity, median over time and axes",
+        |s| s.velocity.ratio,
+    ),
+    number(
+        "ratio_acc",
+        "1",
+        "sigma claimed over sigma of the errors of acceleration, median over time and axes",
+        |s| s.acceleration.ratio,
+    ),
+    number(
+        "mean_err_sigma",
+        "1",
+        "mean error over its standard error, rms over time and axes; about 1 when unbiased",
+        |s| s.mean_error_sigma,
+    ),
+    number("nees", "1", "mean NEES over its dimension; 1 when consistent", |s| {
+        s.nees.mean
+    }),
+    number("nees_median", "1", "median NEES over its dimension", |s| s.nees.median),
+    number("nis", "1", "mean NIS over its rows; 1 when consistent", |s| s.nis.mean),
+    number(
+        "ratio_pos_r",
+        "1",
+        "ratio_pos of the first axis (radial, or LVLH x) alone",
+        |s| s.position.ratio_axes[0],
+    ),
+    number(
+        "ratio_pos_t",
+        "1",
+        "ratio_pos of the second axis (transverse, or LVLH y) alone",
+        |s| s.position.ratio_axes[1],
+    ),
+    number(
+        "ratio_pos_n",
+        "1",
+        "ratio_pos of the third axis (normal, or LVLH z) alone",
+        |s| s.position.ratio_axes[2],
+    ),
+    number(
+        "ratio_vel_r",
+        "1",
+        "ratio_vel of the first axis (radial, or LVLH x) alone",
+        |s| s.velocity.ratio_axes[0],
+    ),
+    number(
+        "ratio_vel_t",
+        "1",
+        "ratio_vel of the second axis (transverse, or LVLH y) alone",
+        |s| s.velocity.ratio_axes[1],
+    ),
+    number(
+        "ratio_vel_n",
+        "1",
+        "ratio_vel of the third axis (normal, or LVLH z) alone",
+        |s| s.velocity.ratio_axes[2],
+    ),
+    number(
+        "ratio_acc_r",
+        "1",
+        "ratio_acc of the first axis (radial, or LVLH x) alone",
+        |s| s.acceleration.ratio_axes[0],
+    ),
+    number(
+        "ratio_acc_t",
+        "1",
+        "ratio_acc of the second axis (transverse, or LVLH y) alone",
+        |s| s.acceleration.ratio_axes[1],
+    ),
+    number(
+        "ratio_acc_n",
+        "1",
+        "ratio_acc of the third axis (normal, or LVLH z) alone",
+        |s| s.acceleration.ratio_axes[2],
+    ),
+    number(
+        "bias_rmse_m_s2",
+        "m/s2",
+        "root mean square of the norm of the accelerometer bias error",
+        |s| s.bias.rmse,
+    ),
+    number(
+        "ratio_bias",
+        "1",
+        "sigma claimed over sigma of the errors of accelerometer bias, median over time and axes",
+        |s| s.bias.ratio,
+    ),
+    number(
+        "coverage_3s_pos",
+        "1",
+        "share of position errors within 3 sigma as claimed; 0.9973 for a Gaussian",
+        |s| s.position.coverage,
+    ),
+    number(
+        "coverage_3s_vel",
+        "1",
+        "share of velocity errors within 3 sigma as claimed; 0.9973 for a Gaussian",
+        |s| s.velocity.coverage,
+    ),
+    number(
+        "coverage_3s_acc",
+        "1",
+        "share of acceleration errors within 3 sigma as claimed; 0.9973 for a Gaussian",
+        |s| s.acceleration.coverage,
+    ),
+    number(
+        "coverage_3s_bias",
+        "1",
+        "share of accelerometer bias errors within 3 sigma as claimed; 0.9973 for a Gaussian",
+        |s| s.bias.coverage,
+    ),
+    number(
+        "nees_low",
+        "1",
+        "lower 95 % bound of the mean over runs of NEES over its dimension, at one epoch",
+        |s| s.nees_bounds.map(|[low, _]| low),
+    ),
+    number("nees_high", "1", "upper 95 % bound of it", |s| {
+        s.nees_bounds.map(|[_, high]| high)
+    }),
+    number(
+        "nees_inside",
+        "1",
+        "share of epochs whose mean NEES is within those bounds",
+        |s| s.nees_inside,
+    ),
+    count("nees_dimension", "number of states of the NEES", |s| {
+        s.nees_dimension.map(|n| n as u64)
+    }),
+    count(
+        "cov_broken",
+        "samples whose covariance was not symmetric, positive definite and finite",
+        |s| Some(s.covariances_broken),
+    ),
+    number(
+        "pos_rmse_r_m",
+        "m",
+        "root mean square of the position error, first axis (radial, or LVLH x)",
+        |s| s.position.rmse_axes[0],
+    ),
+    number(
+        "pos_rmse_t_m",
+        "m",
+        "root mean square of the position error, second axis (transverse, or LVLH y)",
+        |s| s.position.rmse_axes[1],
+    ),
+    number(
+        "pos_rmse_n_m",
+        "m",
+        "root mean square of the position error, third axis (normal, or LVLH z)",
+        |s| s.position.rmse_axes[2],
+    ),
+    number(
+        "vel_rmse_r_m_s",
+        "m/s",
+        "root mean square of the velocity error, first axis (radial, or LVLH x)",
+        |s| s.velocity.rmse_axes[0],
+    ),
+    number(
+        "vel_rmse_t_m_s",
+        "m/s",
+        "root mean square of the velocity error, second axis (transverse, or LVLH y)",
+        |s| s.velocity.rmse_axes[1],
+    ),
+    number(
+        "vel_rmse_n_m_s",
+        "m/s",
+        "root mean square of the velocity error, third axis (normal, or LVLH z)",
+        |s| s.velocity.rmse_axes[2],
+    ),
+    number(
+        "acc_rmse_r_m_s2",
+        "m/s2",
+        "root mean square of the acceleration error, first axis (radial, or LVLH x)",
+        |s| s.acceleration.rmse_axes[0],
+    ),
+    number(
+        "acc_rmse_t_m_s2",
+        "m/s2",
+        "root mean square of the acceleration error, second axis (transverse, or LVLH y)",
+        |s| s.acceleration.rmse_axes[1],
+    ),
+    number(
+        "acc_rmse_n_m_s2",
+        "m/s2",
+        "root mean square of the acceleration error, third axis (normal, or LVLH z)",
+        |s| s.acceleration.rmse_axes[2],
+    ),
+    number(
+        "pos_rmse_se_m",
+        "m",
+        "standard error of pos_rmse_m over the runs",
+        |s| s.position.rmse_error,
+    ),
+    number(
+        "vel_rmse_se_m_s",
+        "m/s",
+        "standard error of vel_rmse_m_s over the runs",
+        |s| s.velocity.rmse_error,
+    ),
+    number(
+        "acc_rmse_se_m_s2",
+        "m/s2",
+        "standard error of acc_rmse_m_s2 over the runs",
+        |s| s.acceleration.rmse_error,
+    ),
+    number(
+        "acc_rmse_se_r_m_s2",
+        "m/s2",
+        "standard error of acc_rmse_r_m_s2 over the runs",
+        |s| s.acceleration.rmse_error_axes[0],
+    ),
+    number(
+        "acc_rmse_se_t_m_s2",
+        "m/s2",
+        "standard error of acc_rmse_t_m_s2 over the runs",
+        |s| s.acceleration.rmse_error_axes[1],
+    ),
+    number(
+        "acc_rmse_se_n_m_s2",
+        "m/s2",
+        "standard error of acc_rmse_n_m_s2 over the runs",
+        |s| s.acceleration.rmse_error_axes[2],
+    ),
+    number("nees_se", "1", "standard error of nees over the runs", |s| s.nees.error),
+    number("nis_se", "1", "standard error of nis over the runs", |s| s.nis.error),
+    number(
+        "acc_rmse_of_zero_m_s2",
+        "m/s2",
+        "root mean square of the true acceleration: the RMSE of an estimate that is always zero",
+        |s| s.zero_acceleration,
+    ),
+    number(
+        "acc_rmse_of_zero_r_m_s2",
+        "m/s2",
+        "acc_rmse_of_zero_m_s2 on the first axis (radial, or LVLH x)",
+        |s| s.zero_acceleration_axes[0],
+    ),
+    number(
+        "acc_rmse_of_zero_t_m_s2",
+        "m/s2",
+        "acc_rmse_of_zero_m_s2 on the second axis (transverse, or LVLH y)",
+        |s| s.zero_acceleration_axes[1],
+    ),
+    number(
+        "acc_rmse_of_zero_n_m_s2",
+        "m/s2",
+        "acc_rmse_of_zero_m_s2 on the third axis (normal, or LVLH z)",
+        |s| s.zero_acceleration_axes[2],
+    ),
+    number(
+        "nees6",
+        "1",
+        "mean NEES of position and velocity alone, over 6; 1 when consistent",
+        |s| s.nees6.mean,
+    ),
+    number("nees6_se", "1", "standard error of nees6 over the runs", |s| {
+        s.nees6.error
+    }),
+];
 
-row! {
-    /// One row; `None` is an empty cell.
-    pub struct SummaryRow {
-        /// Scenario.
-        scenario: String,
-        /// Filter with its preset.
-        filter: String,
-        /// Case.
-        case: String,
-        /// Runs asked for.
-        runs: u32,
-        /// Runs that ended with an error; they take no part in the statistics.
-        failed: usize,
-        /// Runs that lost the target.
-        diverged: usize,
-        /// Root mean square of the norm of the position error, m.
-        pos_rmse_m: Option<f64>,
-        /// The same of velocity, m/s.
-        vel_rmse_m_s: Option<f64>,
-        /// The same of acceleration, m/s2.
-        acc_rmse_m_s2: Option<f64>,
-        /// Median over time and axes of estimated over sample sigma of position.
-        ratio_pos: Option<f64>,
-        /// The same of velocity.
-        ratio_vel: Option<f64>,
-        /// The same of acceleration.
-        ratio_acc: Option<f64>,
-        /// Root mean square over time and axes of mean error over its standard error.
-        mean_err_sigma: Option<f64>,
-        /// Mean NEES over its dimension.
-        nees: Option<f64>,
-        /// Median NEES over its dimension.
-        nees_median: Option<f64>,
-        /// Mean NIS over its rows.
-        nis: Option<f64>,
-        /// `ratio_pos` of the first axis alone: radial, or LVLH x.
-        ratio_pos_r: Option<f64>,
-        /// Second axis: transverse, or LVLH y.
-        ratio_pos_t: Option<f64>,
-        /// Third axis: normal, or LVLH z.
-        ratio_pos_n: Option<f64>,
-        /// `ratio_vel` of the first axis.
-        ratio_vel_r: Option<f64>,
-        /// Second axis.
-        ratio_vel_t: Option<f64>,
-        /// Third axis.
-        ratio_vel_n: Option<f64>,
-        /// `ratio_acc` of the first axis.
-        ratio_acc_r: Option<f64>,
-        /// Second axis.
-        ratio_acc_t: Option<f64>,
-        /// Third axis.
-        ratio_acc_n: Option<f64>,
-        /// Root mean square of the norm of the bias error, m/s2.
-        bias_rmse_m_s2: Option<f64>,
-        /// Median over time and axes of estimated over sample sigma of the bias.
-        ratio_bias: Option<f64>,
-        /// Share of position errors within three of the filter's sigmas; 0.9973 for a Gaussian.
-        coverage_3s_pos: Option<f64>,
-        /// The same of velocity.
-        coverage_3s_vel: Option<f64>,
-        /// The same of acceleration.
-        coverage_3s_acc: Option<f64>,
-        /// The same of the bias.
-        coverage_3s_bias: Option<f64>,
-        /// Lower 95 % bound of the mean over runs of NEES over its dimension, at one epoch.
-        nees_low: Option<f64>,
-        /// Upper bound.
-        nees_high: Option<f64>,
-        /// Share of epochs whose mean NEES is within those bounds.
-        nees_inside: Option<f64>,
-        /// Number of states of the NEES.
-        nees_dimension: Option<usize>,
-        /// Samples whose covariance was not symmetric, positive definite and finite.
-        cov_broken: u64,
-        /// Root mean square of the position error on the first axis (radial, or LVLH x), m.
-        pos_rmse_r_m: Option<f64>,
-        /// Second axis (transverse, or LVLH y).
-        pos_rmse_t_m: Option<f64>,
-        /// Third axis (normal, or LVLH z).
-        pos_rmse_n_m: Option<f64>,
-        /// Root mean square of the velocity error on the first axis (radial, or LVLH x), m/s.
-        vel_rmse_r_m_s: Option<f64>,
-        /// Second axis (transverse, or LVLH y).
-        vel_rmse_t_m_s: Option<f64>,
-        /// Third axis (normal, or LVLH z).
-        vel_rmse_n_m_s: Option<f64>,
-        /// Root mean square of the acceleration error on the first axis (radial, or LVLH x), m/s2.
-        acc_rmse_r_m_s2: Option<f64>,
-        /// Second axis (transverse, or LVLH y).
-        acc_rmse_t_m_s2: Option<f64>,
-        /// Third axis (normal, or LVLH z).
-        acc_rmse_n_m_s2: Option<f64>,
-        /// Standard error of `pos_rmse_m` over the runs, m.
-        pos_rmse_se_m: Option<f64>,
-        /// The same of `vel_rmse_m_s`, m/s.
-        vel_rmse_se_m_s: Option<f64>,
-        /// The same of `acc_rmse_m_s2`, m/s2.
-        acc_rmse_se_m_s2: Option<f64>,
-        /// Standard error of `acc_rmse_r_m_s2`, m/s2.
-        acc_rmse_se_r_m_s2: Option<f64>,
-        /// Standard error of `acc_rmse_t_m_s2`, m/s2.
-        acc_rmse_se_t_m_s2: Option<f64>,
-        /// Standard error of `acc_rmse_n_m_s2`, m/s2.
-        acc_rmse_se_n_m_s2: Option<f64>,
-        /// Standard error of `nees` over the runs.
-        nees_se: Option<f64>,
-        /// Standard error of `nis` over the runs.
-        nis_se: Option<f64>,
-        /// Root mean square of the true acceleration: the RMSE of an estimate that is always zero, m/s2.
-        acc_rmse_of_zero_m_s2: Option<f64>,
-        /// The same on the first axis.
-        acc_rmse_of_zero_r_m_s2: Option<f64>,
-        /// Second axis.
-        acc_rmse_of_zero_t_m_s2: Option<f64>,
-        /// Third axis.
-        acc_rmse_of_zero_n_m_s2: Option<f64>,
-    }
-}
-
-impl SummaryRow {
-    /// The statistics of one filter.
-    pub fn new(scenario: &str, case: &str, result: &FilterResult) -> Self {
-        let time = result.first_scored..usize::MAX;
-        let rmse = |q| result.ensemble(q).rmse(time.clone());
-        let ratio = |q| result.ensemble(q).ratio(time.clone());
-        let coverage = |q| result.ensemble(q).coverage(time.clone());
-        let by_axis = |q| match result.ensemble(q).ratio_by_axis(time.clone()) {
-            Some(ratios) => ratios.map(Some),
-            None => [None; 3],
-        };
-        let [ratio_pos_r, ratio_pos_t, ratio_pos_n] = by_axis(Quantity::Position);
-        let [ratio_vel_r, ratio_vel_t, ratio_vel_n] = by_axis(Quantity::Velocity);
-        let [ratio_acc_r, ratio_acc_t, ratio_acc_n] = by_axis(Quantity::Acceleration);
-        let rmse_by_axis = |q| match result.ensemble(q).rmse_by_axis(time.clone()) {
-            Some(rmse) => [Some(rmse.x), Some(rmse.y), Some(rmse.z)],
-            None => [None; 3],
-        };
-        let [pos_rmse_r_m, pos_rmse_t_m, pos_rmse_n_m] = rmse_by_axis(Quantity::Position);
-        let [vel_rmse_r_m_s, vel_rmse_t_m_s, vel_rmse_n_m_s] = rmse_by_axis(Quantity::Velocity);
-        let [acc_rmse_r_m_s2, acc_rmse_t_m_s2, acc_rmse_n_m_s2] = rmse_by_axis(Quantity::Acceleration);
-        let mean_squares = |of: &dyn Fn(&RunRow) -> Option<Vector3<f64>>, part: fn(Vector3<f64>) -> f64| {
-            result.runs.iter().filter_map(of).map(part).collect::<Vec<_>>()
-        };
-        let rmse_error = |q: Quantity| rmse_standard_error(&mean_squares(&|r| r.mean_squares[q as usize], |v| v.sum()));
-        let acc_error = |axis: fn(Vector3<f64>) -> f64| {
-            rmse_standard_error(&mean_squares(
-                &|r| r.mean_squares[Quantity::Acceleration as usize],
-                axis,
-            ))
-        };
-        let scalar_error =
-            |of: fn(&RunRow) -> Option<f64>| standard_error(&result.runs.iter().filter_map(of).collect::<Vec<_>>());
-        let of_zero = mean_vector(result.runs.iter().filter_map(|r| r.true_acceleration_mean_square));
-        let dimension = result.dimension;
-        let bounds_for = |runs: u32| mean_chi_square_bounds(runs as usize, dimension, CONFIDENCE).ok();
-        let finished = result.runs.len() - result.failed();
-        let bounds = bounds_for(u32::try_from(finished).unwrap_or(u32::MAX));
-        Self {
-            scenario: scenario.to_owned(),
-            filter: result.label.clone(),
-            case: case.to_owned(),
-            runs: u32::try_from(result.runs.len()).unwrap_or(u32::MAX),
-            failed: result.failed(),
-            diverged: result.diverged(),
-            pos_rmse_m: rmse(Quantity::Position),
-            vel_rmse_m_s: rmse(Quantity::Velocity),
-            acc_rmse_m_s2: rmse(Quantity::Acceleration),
-            ratio_pos: ratio(Quantity::Position),
-            ratio_vel: ratio(Quantity::Velocity),
-            ratio_acc: ratio(Quantity::Acceleration),
-            mean_err_sigma: mean_error_in_sigmas(
-                &[result.ensemble(Quantity::Position), result.ensemble(Quantity::Velocity)],
-                time.clone(),
-            ),
-            nees: result.nees.mean(),
-            nees_median: result.nees.median(),
-            nis: result.nis.mean(),
-            ratio_pos_r,
-            ratio_pos_t,
-            ratio_pos_n,
-            ratio_vel_r,
-            ratio_vel_t,
-            ratio_vel_n,
-            ratio_acc_r,
-            ratio_acc_t,
-            ratio_acc_n,
-            bias_rmse_m_s2: rmse(Quantity::Bias),
-            ratio_bias: ratio(Quantity::Bias),
-            coverage_3s_pos: coverage(Quantity::Position),
-            coverage_3s_vel: coverage(Quantity::Velocity),
-            coverage_3s_acc: coverage(Quantity::Acceleration),
-            coverage_3s_bias: coverage(Quantity::Bias),
-            nees_low: bounds.map(|b| b.low),
-            nees_high: bounds.map(|b| b.high),
-            nees_inside: result.nees.share_of_epochs_inside(bounds_for),
-            nees_dimension: (dimension > 0).then_some(dimension),
-            cov_broken: result.covariances_broken,
-            pos_rmse_r_m,
-            pos_rmse_t_m,
-            pos_rmse_n_m,
-            vel_rmse_r_m_s,
-            vel_rmse_t_m_s,
-            vel_rmse_n_m_s,
-            acc_rmse_r_m_s2,
-            acc_rmse_t_m_s2,
-            acc_rmse_n_m_s2,
-            pos_rmse_se_m: rmse_error(Quantity::Position),
-            vel_rmse_se_m_s: rmse_error(Quantity::Velocity),
-            acc_rmse_se_m_s2: rmse_error(Quantity::Acceleration),
-            acc_rmse_se_r_m_s2: acc_error(|v| v[0]),
-            acc_rmse_se_t_m_s2: acc_error(|v| v[1]),
-            acc_rmse_se_n_m_s2: acc_error(|v| v[2]),
-            nees_se: scalar_error(|r| r.nees),
-            nis_se: scalar_error(|r| r.nis),
-            acc_rmse_of_zero_m_s2: of_zero.map(|v| v.sum().sqrt()),
-            acc_rmse_of_zero_r_m_s2: of_zero.map(|v| v[0].sqrt()),
-            acc_rmse_of_zero_t_m_s2: of_zero.map(|v| v[1].sqrt()),
-            acc_rmse_of_zero_n_m_s2: of_zero.map(|v| v[2].sqrt()),
-        }
-    }
-
-    /// The number in a column; `None` where the cell is empty, holds text or does not exist.
-    pub fn number(&self, column: &str) -> Option<f64> {
-        serde_json::to_value(self).ok()?.get(column)?.as_f64()
-    }
+/// The number in a column; `None` where the cell is empty, holds text or does not exist.
+pub fn value(row: &Summary, name: &str) -> Option<f64> {
+    find(COLUMNS, name).and_then(|c| c.cell(row).as_f64())
 }
 
 /// Contents of `summary.csv`.
 ///
 /// # Errors
 /// [`HarnessError::Csv`].
-pub fn render(rows: &[SummaryRow]) -> Result<Vec<u8>, HarnessError> {
-    csv_bytes(COLUMNS, rows)
+pub fn render(rows: &[Summary]) -> Result<Vec<u8>, HarnessError> {
+    column::render(COLUMNS, rows)
 }
 
 #[cfg(test)]
@@ -254,11 +323,29 @@ mod tests {
 
     /// The columns that study scripts rely on, in the words of the interface.
     #[test]
-    fn the_promised_columns_come_first() {
+    fn the_promised_columns_come_first_and_none_comes_twice() {
         let promised = "scenario,filter,case,runs,failed,diverged,pos_rmse_m,vel_rmse_m_s,acc_rmse_m_s2,\
             ratio_pos,ratio_vel,ratio_acc,mean_err_sigma,nees,nees_median,nis";
-        assert!(COLUMNS.join(",").starts_with(promised));
+        let mut names: Vec<&str> = COLUMNS.iter().map(|c| c.name).collect();
+        assert!(names.join(",").starts_with(promised));
         let text = String::from_utf8(render(&[]).unwrap()).unwrap();
-        assert_eq!(text, format!("{}\n", COLUMNS.join(",")));
+        assert_eq!(text, format!("{}\n", names.join(",")));
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), COLUMNS.len());
+    }
+
+    /// A suffix of a name is the unit of its column.
+    #[test]
+    fn names_end_in_their_units() {
+        for column in COLUMNS {
+            let suffix = match column.unit {
+                "m" => "_m",
+                "m/s" => "_m_s",
+                "m/s2" => "_m_s2",
+                _ => continue,
+            };
+            assert!(column.name.ends_with(suffix), "{} in {}", column.name, column.unit);
+        }
     }
 }

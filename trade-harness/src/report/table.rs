@@ -1,12 +1,11 @@
 //! The table at the end of a study.
 
-use std::fmt::Write;
+use study::Summary;
 
-use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
-
-use super::claims::Verdict;
-use super::summary::SummaryRow;
+use super::column::find;
+use super::summary::COLUMNS;
 use super::timing::TimingRow;
+use crate::format::{number, plain_table};
 
 /// How to read the columns, below each table.
 pub const LEGEND: &str = "\
@@ -14,98 +13,44 @@ ratio: sigma the filter claims / sigma of its errors (1 honest, above 1 too mode
 mean err: mean error over its sampling noise (about 1 when unbiased); NEES, NIS: 1 on average when consistent
 nav: time in the filter's fmi2DoStep; FMI: share of the time of truth and filter spent on the interface, not the models";
 
-const HEADERS: [&str; 15] = [
-    "filter",
-    "pos RMSE\n[m]",
-    "vel RMSE\n[m/s]",
-    "acc RMSE\n[m/s2]",
-    "ratio\npos",
-    "ratio\nvel",
-    "ratio\nacc",
-    "mean err\n[sigma]",
-    "NEES\nmean",
-    "NEES\nmedian",
-    "NIS",
-    "failed",
-    "diverged",
-    "nav\n[us/step]",
-    "FMI\n[%]",
+/// Headings and the columns of `summary.csv` below them.
+const SHOWN: [(&str, &str); 13] = [
+    ("filter", "filter"),
+    ("pos RMSE\n[m]", "pos_rmse_m"),
+    ("vel RMSE\n[m/s]", "vel_rmse_m_s"),
+    ("acc RMSE\n[m/s2]", "acc_rmse_m_s2"),
+    ("ratio\npos", "ratio_pos"),
+    ("ratio\nvel", "ratio_vel"),
+    ("ratio\nacc", "ratio_acc"),
+    ("mean err\n[sigma]", "mean_err_sigma"),
+    ("NEES\nmean", "nees"),
+    ("NEES\nmedian", "nees_median"),
+    ("NIS", "nis"),
+    ("failed", "failed"),
+    ("diverged", "diverged"),
 ];
 
-/// Four significant digits; a dash for what is absent.
-pub fn number(value: Option<f64>) -> String {
-    let Some(v) = value else { return "-".to_owned() };
-    let magnitude = v.abs();
-    if magnitude == 0.0 {
-        "0".to_owned()
-    } else if (1e-2..1e5).contains(&magnitude) {
-        let digits = (3.0 - magnitude.log10().floor()).max(0.0) as usize;
-        format!("{v:.digits$}")
-    } else {
-        format!("{v:.3e}")
-    }
-}
+/// Headings of what a filter cost.
+const COST: [&str; 2] = ["nav\n[us/step]", "FMI\n[%]"];
 
-/// The table of one scenario, without a final newline.
-pub fn render(rows: &[SummaryRow], timings: &[TimingRow]) -> String {
+/// The table of one world, without a final newline.
+pub fn render(rows: &[Summary], timings: &[TimingRow]) -> String {
     let cells = rows.iter().map(|row| {
         let same = |t: &&TimingRow| t.scenario == row.scenario && t.filter == row.filter && t.case == row.case;
         let timing = timings.iter().find(same);
-        vec![
-            row.filter.clone(),
-            number(row.pos_rmse_m),
-            number(row.vel_rmse_m_s),
-            number(row.acc_rmse_m_s2),
-            number(row.ratio_pos),
-            number(row.ratio_vel),
-            number(row.ratio_acc),
-            number(row.mean_err_sigma),
-            number(row.nees),
-            number(row.nees_median),
-            number(row.nis),
-            row.failed.to_string(),
-            row.diverged.to_string(),
-            number(timing.map(|t| t.nav_us_per_step)),
-            timing.map_or_else(|| number(None), |t| format!("{:.1}", 100.0 * t.fmi_share)),
-        ]
+        let shown = SHOWN.iter().filter_map(|(_, name)| find(COLUMNS, name));
+        let mut cells: Vec<String> = shown.map(|c| c.cell(row).short()).collect();
+        cells.push(number(timing.map(|t| t.nav_us_per_step)));
+        cells.push(timing.map_or_else(|| number(None), |t| format!("{:.1}", 100.0 * t.fmi_share)));
+        cells
     });
-    plain_table(HEADERS, 1, cells)
+    plain_table(SHOWN.iter().map(|(heading, _)| *heading).chain(COST), 1, cells)
 }
 
-/// A table with rules above, below and under the header; columns after the first `left` are aligned to the right. Without a
-/// final newline.
-pub(super) fn plain_table<H: Into<comfy_table::Cell>>(
-    headers: impl IntoIterator<Item = H>,
-    left: usize,
-    rows: impl IntoIterator<Item = Vec<String>>,
-) -> String {
-    let rule = LineStyle::none().fill('─').junction('─');
-    let mut table = Table::new();
-    table.load_style(
-        TableStyle::new()
-            .top_border(rule)
-            .header_separator(rule)
-            .bottom_border(rule),
-    );
-    table.set_header(headers.into_iter().collect::<Vec<_>>());
-    table.add_rows(rows);
-    for (index, column) in table.column_iter_mut().enumerate() {
-        column.set_padding((0, 1));
-        if index >= left {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
-    table
-        .lines()
-        .map(|line| line.trim_end().to_owned())
-        .collect::<Vec<_>>()
-        .join("\n")
-}
-
-/// RMSE, ratio of sigmas on each axis, and coverage of each quantity of one scenario, without a final newline.
+/// RMSE, ratio of sigmas on each axis, and coverage of each quantity of one world, without a final newline.
 ///
 /// * `axes`: names of the axes of the results.
-pub fn render_axes(rows: &[SummaryRow], axes: [&str; 3]) -> String {
+pub fn render_axes(rows: &[Summary], axes: [&str; 3]) -> String {
     let mut table = Vec::new();
     let mut header = vec!["filter".to_owned(), "RMSE of".to_owned()];
     header.extend(axes.map(|axis| format!("{axis}\n")));
@@ -113,74 +58,60 @@ pub fn render_axes(rows: &[SummaryRow], axes: [&str; 3]) -> String {
     header.extend(axes.map(|axis| format!("ratio\n{axis}")));
     header.push("inside\n3 sigma [%]".to_owned());
     for row in rows {
-        for (name, prefix, unit) in [
-            ("pos [m]", "pos", "m"),
-            ("vel [m/s]", "vel", "m_s"),
-            ("acc [m/s2]", "acc", "m_s2"),
+        for (name, errors) in [
+            ("pos [m]", &row.position),
+            ("vel [m/s]", &row.velocity),
+            ("acc [m/s2]", &row.acceleration),
         ] {
-            let column = |name: String| number(row.number(&name));
-            let axis = |kind: &str, suffix: &str| ["r", "t", "n"].map(|axis| column(format!("{kind}_{axis}{suffix}")));
             let mut cells = vec![row.filter.clone(), name.to_owned()];
-            cells.extend(axis(&format!("{prefix}_rmse"), &format!("_{unit}")));
-            cells.push(column(format!("{prefix}_rmse_se_{unit}")));
-            cells.extend(axis(&format!("ratio_{prefix}"), ""));
-            let inside = row.number(&format!("coverage_3s_{prefix}"));
-            cells.push(inside.map_or_else(|| number(None), |share| format!("{:.2}", 100.0 * share)));
+            cells.extend(errors.rmse_axes.map(number));
+            cells.push(number(errors.rmse_error));
+            cells.extend(errors.ratio_axes.map(number));
+            let inside = errors.coverage.map(|share| format!("{:.2}", 100.0 * share));
+            cells.push(inside.unwrap_or_else(|| number(None)));
             table.push(cells);
         }
     }
     plain_table(header, 2, table)
 }
 
-/// One line for each claim, without a final newline.
-pub fn render_claims(verdicts: &[Verdict<'_>]) -> String {
-    let mut text = String::new();
-    for verdict in verdicts {
-        let claim = verdict.claim;
-        let word = if verdict.holds() { "holds " } else { "MISSED" };
-        let value = number(verdict.value);
-        if !text.is_empty() {
-            text.push('\n');
-        }
-        // Writing to a String cannot fail.
-        let _ = write!(
-            text,
-            "{word}  {} {} = {value} (bound: {}): {}",
-            claim.filter,
-            claim.column,
-            claim.bound.words(|end| end.to_string()),
-            claim.text
-        );
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bound::Bound;
-    use crate::scenarios::Claim;
+    use study::{QuantitySummary, ScalarSummary};
 
-    fn row(filter: &str, acceleration: Option<f64>) -> SummaryRow {
-        SummaryRow {
+    fn errors(rmse: Option<f64>, ratio: Option<f64>) -> QuantitySummary {
+        QuantitySummary {
+            rmse,
+            ratio,
+            ..QuantitySummary::default()
+        }
+    }
+
+    fn row(filter: &str, acceleration: Option<f64>) -> Summary {
+        Summary {
             scenario: "leo_venting".to_owned(),
             filter: filter.to_owned(),
             case: "nominal".to_owned(),
             runs: 100,
             failed: 0,
             diverged: 2,
-            pos_rmse_m: Some(1.23456),
-            vel_rmse_m_s: Some(0.0123456),
-            acc_rmse_m_s2: acceleration,
-            ratio_pos: Some(1.05),
-            ratio_vel: Some(17.5),
-            ratio_acc: acceleration.map(|_| 123.4),
-            mean_err_sigma: Some(0.98),
-            nees: Some(0.0),
-            nees_median: Some(123_456.0),
-            nis: None,
-            ..SummaryRow::default()
+            position: errors(Some(1.23456), Some(1.05)),
+            velocity: errors(Some(0.0123456), Some(17.5)),
+            acceleration: errors(acceleration, acceleration.map(|_| 123.4)),
+            mean_error_sigma: Some(0.98),
+            nees: ScalarSummary {
+                mean: Some(0.0),
+                median: Some(123_456.0),
+                ..ScalarSummary::default()
+            },
+            ..Summary::default()
         }
+    }
+
+    #[test]
+    fn every_column_shown_exists() {
+        assert!(SHOWN.iter().all(|(_, name)| find(COLUMNS, name).is_some()));
     }
 
     #[test]
@@ -205,10 +136,10 @@ mod tests {
     #[test]
     fn axes_of_a_filter_with_and_without_a_covariance() {
         let mut full = row("milton", None);
-        full.pos_rmse_t_m = Some(0.25);
-        full.ratio_pos_n = Some(1.06);
-        full.coverage_3s_pos = Some(0.99829);
-        full.vel_rmse_se_m_s = Some(0.0125);
+        full.position.rmse_axes[1] = Some(0.25);
+        full.position.ratio_axes[2] = Some(1.06);
+        full.position.coverage = Some(0.99829);
+        full.velocity.rmse_error = Some(0.0125);
         let text = render_axes(&[full], ["x", "y", "z"]);
         let cells = |line: usize| text.lines().nth(line).unwrap().split_whitespace().collect::<Vec<_>>();
         let [position, velocity] = [4, 5].map(|line| cells(line)[3..].to_vec());
@@ -218,62 +149,5 @@ mod tests {
             "{text}"
         );
         assert_eq!(velocity, ["-", "-", "-", "0.01250", "-", "-", "-", "-"], "{text}");
-    }
-
-    #[test]
-    fn four_digits_at_any_magnitude() {
-        for (value, text) in [
-            (None, "-"),
-            (Some(0.0), "0"),
-            (Some(-1.0), "-1.000"),
-            (Some(0.0123456), "0.01235"),
-            (Some(12345.6), "12346"),
-            (Some(1.5e-7), "1.500e-7"),
-            (Some(1e5), "1.000e5"),
-        ] {
-            assert_eq!(number(value), text);
-        }
-    }
-
-    #[test]
-    fn claims_say_what_was_held_to_what() {
-        let near = Claim {
-            filter: "milton",
-            column: "ratio_pos",
-            bound: Bound::between(0.95, 1.2),
-            text: "overlay",
-        };
-        let above = Claim {
-            filter: "milton",
-            column: "ratio_vel",
-            bound: Bound::between(1.2, f64::INFINITY),
-            text: "modest",
-        };
-        let none = Claim {
-            filter: "milton",
-            column: "diverged",
-            bound: Bound::between(0.0, 0.0),
-            text: "stays",
-        };
-        let text = render_claims(&[
-            Verdict {
-                claim: &near,
-                value: Some(1.05),
-            },
-            Verdict {
-                claim: &above,
-                value: Some(1.1),
-            },
-            Verdict {
-                claim: &none,
-                value: None,
-            },
-        ]);
-        assert_eq!(
-            text,
-            "holds   milton ratio_pos = 1.050 (bound: 0.95 to 1.2): overlay\n\
-             MISSED  milton ratio_vel = 1.100 (bound: at least 1.2): modest\n\
-             MISSED  milton diverged = - (bound: exactly 0): stays"
-        );
     }
 }

@@ -2,27 +2,44 @@
 
 use std::time::Duration;
 
-use serde::Serialize;
+use study::Timing;
 
-use super::csv_bytes;
+use super::column::{self, Column, count, number, text};
 use crate::HarnessError;
-use crate::study::Timing;
 
-/// Columns of the file.
-const COLUMNS: &[&str] = &[
-    "scenario",
-    "filter",
-    "case",
-    "nav_us_per_step",
-    "truth_us_per_step",
-    "fmi_exchange_us_per_step",
-    "fmi_call_us",
-    "fmi_share",
-    "steps",
+pub(crate) const COLUMNS: &[Column<TimingRow>] = &[
+    text("scenario", "world", |t| t.scenario.as_str().into()),
+    text("filter", "filter with its preset", |t| t.filter.as_str().into()),
+    text("case", "case", |t| t.case.as_str().into()),
+    number("nav_us_per_step", "us", "fmi2DoStep of the filter", |t| {
+        Some(t.nav_us_per_step)
+    }),
+    number("truth_us_per_step", "us", "fmi2DoStep of the truth", |t| {
+        Some(t.truth_us_per_step)
+    }),
+    number(
+        "fmi_exchange_us_per_step",
+        "us",
+        "getting and setting of both, including what the study reads for its statistics",
+        |t| Some(t.fmi_exchange_us_per_step),
+    ),
+    number(
+        "fmi_call_us",
+        "us",
+        "fmi2DoStep of the filter without a new sample",
+        |t| Some(t.fmi_call_us),
+    ),
+    number(
+        "fmi_share",
+        "1",
+        "(exchange + two calls) / (nav + truth + exchange)",
+        |t| Some(t.fmi_share),
+    ),
+    count("steps", "communication steps measured", |t| Some(t.steps)),
 ];
 
 /// Time per communication step, microseconds.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct TimingRow {
     /// Scenario.
     pub scenario: String,
@@ -71,13 +88,13 @@ impl TimingRow {
 /// # Errors
 /// [`HarnessError::Csv`].
 pub fn render(rows: &[TimingRow]) -> Result<Vec<u8>, HarnessError> {
-    csv_bytes(COLUMNS, rows)
+    column::render(COLUMNS, rows)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::SlaveTime;
+    use study::SlaveTime;
 
     #[test]
     fn shares_of_a_case_worked_by_hand() {

@@ -1,29 +1,20 @@
 //! What Table 3 leaves out: plain filters beside the network, the same filters with less noise, and lighter spacecraft.
 
-use super::nominal::{self, consistency, errors};
-use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request};
+use study::{NAV, TRUTH};
+
+use super::chapter::{Chapter, NETWORK_PAPER};
+use super::line::Line;
+use super::notebook::{Laboratory, Notebook};
+use super::request::{FORMATION, Request};
+use super::table::{self, BASELINES, consistency, errors, ratio};
 use crate::HarnessError;
-use crate::models::{NAV, TRUTH};
-use crate::scenarios::FORMATION;
+use crate::bound::Bound;
 
 pub(super) const CHAPTER: Chapter = Chapter {
     title: "Beyond Table 3: plain filters, other tuning, lighter spacecraft",
     requests,
     write,
 };
-
-/// Filters beside those of the paper, and how they come by their Q.
-const BASELINES: [(&str, &str); 3] = [
-    ("snc", "no network, constant Q, set by hand for this world"),
-    (
-        "fixed_q@slow",
-        "no network, the acceleration as a state, s set by hand for this world",
-    ),
-    (
-        "rbfnn_ekf@light",
-        "the paper's network with a Q and a learning rate that a search found",
-    ),
-];
 
 /// Position and velocity: column of the summary, and what lines call it.
 const QUANTITIES: [(&str, &str); 2] = [("pos_rmse_m", "position RMSE"), ("vel_rmse_m_s", "velocity RMSE")];
@@ -38,38 +29,29 @@ const LESS: [(&str, &str); 3] = [
 /// Mass of both spacecraft, kg, at which drag and radiation pressure matter more; the paper prints none.
 const LIGHT: &str = "10";
 
-pub(super) fn baselines() -> impl Iterator<Item = &'static str> {
-    BASELINES.iter().map(|(filter, _)| *filter)
-}
-
 fn requests() -> Vec<Request> {
     vec![less_noise(), light()]
 }
 
 fn less_noise() -> Request {
-    let request = Request::new(&FORMATION, "less_noise", &["observer", "ekf_j2"]);
+    let request = Request::new(FORMATION, "less_noise", &["observer", "ekf_j2"]);
     let request = LESS
         .iter()
         .fold(request, |request, (variable, value)| request.set(NAV, variable, value));
-    Request {
-        one_run_in: 5,
-        ..request
-    }
+    request.one_run_in(5)
 }
 
 fn light() -> Request {
     let filters = ["snc", "rbfnn_aekf", "rbfnn_aekf@repaired", "rbfnn_ekf@light"];
-    let request = Request::new(&FORMATION, "ten_kilograms", &filters);
-    Request {
-        one_run_in: 5,
-        ..request
-            .set(TRUTH, "target.mass", LIGHT)
-            .set(TRUTH, "chaser.mass", LIGHT)
-    }
+    let request = Request::new(FORMATION, "ten_kilograms", &filters);
+    request
+        .set(TRUTH, "target.mass", LIGHT)
+        .set(TRUTH, "chaser.mass", LIGHT)
+        .one_run_in(5)
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {
-    let table = nominal::request();
+    let table = table::request();
     let mut lines = Vec::new();
     for (filter, how) in BASELINES {
         let found = errors(notebook, &table, "beside Table 3", filter);
@@ -122,7 +104,7 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
 
     let light = light();
     notebook.run(laboratory, &light)?;
-    for filter in &light.filters {
+    for filter in light.filters() {
         let item = "beside Table 3, both masses 10 kg";
         lines.extend(errors(notebook, &light, item, filter).map(|line| line.note("the paper prints no mass")));
         let acceleration = notebook.number(&light, filter, "acc_rmse_m_s2");
@@ -136,9 +118,4 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
     }
     lines.into_iter().for_each(|line| notebook.push(line));
     Ok(())
-}
-
-/// The first over the second.
-pub(super) fn ratio(first: Option<f64>, second: Option<f64>) -> Option<f64> {
-    Option::zip(first, second).map(|(a, b)| a / b)
 }

@@ -1,10 +1,12 @@
 //! Sec. IV.B: how well the network reconstructs the acceleration that its filter's model leaves out (Table 2).
 
-use super::beyond::ratio;
-use super::nominal::consistency;
-use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request, SHARE};
+use super::chapter::{Chapter, NETWORK_PAPER, SHARE};
+use super::line::Line;
+use super::notebook::{Laboratory, Notebook};
+use super::request::{FORMATION, Request};
+use super::table::{consistency, ratio};
 use crate::HarnessError;
-use crate::scenarios::FORMATION;
+use crate::bound::Bound;
 
 pub(super) const CHAPTER: Chapter = Chapter {
     title: "Table 2: disturbance reconstruction",
@@ -46,7 +48,7 @@ const TABLE_2: [Axis; 3] = [
 ];
 
 fn requests() -> Vec<Request> {
-    vec![Request::new(&FORMATION, "disturbance", &[FILTER]).with_j2_alone()]
+    vec![Request::new(FORMATION, "disturbance", &[FILTER]).with_j2_alone()]
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {

@@ -5,14 +5,15 @@ use std::f64::consts::TAU;
 use astro::ClohessyWiltshire;
 use astro::harmonics::EGM96;
 use nalgebra::{Vector3, Vector6};
+use stats::median;
+use study::{FilterResult, NAV, Quantity, TruthSample};
 
-use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request};
+use super::chapter::{Chapter, NETWORK_PAPER};
+use super::line::Line;
+use super::notebook::{Laboratory, Notebook};
+use super::request::{FORMATION, Request};
 use crate::HarnessError;
-use crate::models::NAV;
-use crate::scenarios::{FORMATION, Scenario};
-use crate::score::Quantity;
-use crate::signals::TruthSample;
-use crate::study::FilterResult;
+use crate::bound::Bound;
 
 pub(super) const CHAPTER: Chapter = Chapter {
     title: "Fig. 4: learning, and the drift of Clohessy-Wiltshire",
@@ -27,12 +28,6 @@ const FILTER: &str = "rbfnn_aekf@fig4";
 const SEMI_MAJOR_AXIS: f64 = 8143.1e3;
 /// Period of both orbits, rounded up, s.
 const ORBIT: f64 = 7313.0;
-
-/// The first orbit of the formation.
-static FIRST_ORBIT: Scenario = Scenario {
-    duration: ORBIT,
-    ..FORMATION
-};
 
 /// What the figure calls its initial phase, s.
 const INITIAL: f64 = 60.0;
@@ -63,20 +58,24 @@ fn requests() -> Vec<Request> {
 
 fn forgetting(relaxation: f64) -> Request {
     let case = format!("learning_{relaxation}");
-    let request = Request::new(&FIRST_ORBIT, &case, &[FILTER]).with_j2_alone();
-    Request {
-        one_run_in: 5,
-        ..request.set(NAV, "rbfnn_aekf.relaxation", &relaxation.to_string())
-    }
+    first_orbit(&case, FILTER)
+        .with_j2_alone()
+        .set(NAV, "rbfnn_aekf.relaxation", &relaxation.to_string())
+        .one_run_in(5)
 }
 
 fn learning() -> Request {
-    Request::new(&FIRST_ORBIT, "learning", &[FILTER]).with_j2_alone()
+    first_orbit("learning", FILTER).with_j2_alone()
 }
 
 /// Flown for the true relative motion under every force; a filter has to ride along.
 fn flight() -> Request {
-    Request::new(&FIRST_ORBIT, "flight", &["snc"])
+    first_orbit("flight", "snc")
+}
+
+/// The first orbit of the formation.
+fn first_orbit(case: &str, filter: &str) -> Request {
+    Request::new(FORMATION, case, &[filter]).lasting(ORBIT)
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {
@@ -126,7 +125,7 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
                 "1",
             )
             .printed(CONVERGED_SHARE)
-            .value(median(&curve, CONVERGED_AT, Point::share))
+            .value(median_from(&curve, CONVERGED_AT, Point::share))
             .bound(Bound::between(0.0, CONVERGED_SHARE)),
         );
     }
@@ -155,9 +154,7 @@ impl Point {
 
 fn curve(filter: &FilterResult, truth: &[TruthSample]) -> Vec<Point> {
     let point = |sample: &TruthSample| {
-        let moments = filter
-            .ensemble(Quantity::Acceleration)
-            .at(sample.count.checked_sub(1)? as usize)?;
+        let moments = filter.ensemble(Quantity::Acceleration).at(sample.epoch)?;
         Some(Point {
             time: sample.time,
             d: sample.acceleration?,
@@ -172,7 +169,7 @@ fn claims(curve: &[Point]) -> Vec<Line> {
     let orders = early.reduce(f64::max).map(f64::log10);
     let converged = curve.iter().find(|p| p.share() <= CONVERGED_SHARE).map(|p| p.time);
     let at = curve.iter().find(|p| p.time >= CONVERGED_AT).map(Point::share);
-    let usual = median(curve, CONVERGED_AT, Point::share);
+    let usual = median_from(curve, CONVERGED_AT, Point::share);
     let size = (!curve.is_empty())
         .then(|| (curve.iter().map(|p| p.d.norm_squared()).sum::<f64>() / curve.len() as f64).sqrt());
     let line = |item: &str, quantity: &str, unit| {
@@ -233,16 +230,14 @@ fn claims(curve: &[Point]) -> Vec<Line> {
 
 /// When the error first comes within [`SETTLED`] times its later median.
 fn settled(curve: &[Point]) -> Option<f64> {
-    let level = median(curve, CONVERGED_BY, |p| p.error.norm())?;
+    let level = median_from(curve, CONVERGED_BY, |p| p.error.norm())?;
     let first = curve.iter().find(|p| p.error.norm() <= SETTLED * level);
     first.map(|p| p.time)
 }
 
 /// Median of a number over the epochs from a time on.
-fn median(curve: &[Point], from: f64, of: impl Fn(&Point) -> f64) -> Option<f64> {
-    let mut values: Vec<f64> = curve.iter().filter(|p| p.time >= from).map(of).collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
+fn median_from(curve: &[Point], from: f64, of: impl Fn(&Point) -> f64) -> Option<f64> {
+    median(curve.iter().filter(|p| p.time >= from).map(of))
 }
 
 /// How far Clohessy-Wiltshire, started on the true state, is from it after an orbit.

@@ -1,8 +1,12 @@
 //! The venting scenarios: what the MILTON paper claims of Figs. 1-6 and 8-13.
 
-use super::{Bound, Chapter, Laboratory, Line, MILTON_PAPER, Notebook, Request};
+use super::chapter::{Chapter, MILTON_PAPER};
+use super::line::Line;
+use super::notebook::{Laboratory, Notebook};
+use super::request::{LEO_VENTING, NRHO_VENTING, Request};
 use crate::HarnessError;
-use crate::scenarios::{LEO_VENTING, NRHO_VENTING, Scenario};
+use crate::bound::Bound;
+use crate::claims;
 
 /// The filter of the paper.
 const FILTER: &str = "milton";
@@ -13,30 +17,26 @@ pub(super) const CHAPTER: Chapter = Chapter {
     write,
 };
 
-/// The worlds of the paper.
-const LOW_ORBIT: &Scenario = &LEO_VENTING;
-const HALO_ORBIT: &Scenario = &NRHO_VENTING;
-
-fn request(world: &'static Scenario) -> Request {
+fn request(world: &str) -> Request {
     Request::new(world, "nominal", &[FILTER])
 }
 
 fn requests() -> Vec<Request> {
-    vec![request(LOW_ORBIT), request(HALO_ORBIT)]
+    vec![request(LEO_VENTING), request(NRHO_VENTING)]
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {
     for request in &requests() {
         notebook.run(laboratory, request)?;
-        for claim in request.scenario.claims.iter().filter(|c| c.filter == FILTER) {
-            let quantity = format!("{} {FILTER} {}", request.scenario.name, claim.column);
+        for claim in claims::of(request.world()).iter().filter(|c| c.filter == FILTER) {
+            let quantity = format!("{} {FILTER} {}", request.world(), claim.column);
             let line = Line::new(MILTON_PAPER, claim.text, &quantity, "1")
                 .value(notebook.number(request, FILTER, claim.column))
                 .bound(claim.bound)
                 .required(true);
             notebook.push(line);
         }
-        let world = request.scenario.name;
+        let world = request.world();
         for (claim, column, low, high) in [
             (
                 "the accelerometer bias is estimated to its 3 sigma (Figs. 4 and 11)",
@@ -64,7 +64,7 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
         }
     }
     for column in ["ratio_vel", "ratio_acc"] {
-        let quantity = format!("{FILTER} {column}, {} over {}", HALO_ORBIT.name, LOW_ORBIT.name);
+        let quantity = format!("{FILTER} {column}, {NRHO_VENTING} over {LEO_VENTING}");
         let of = |world| notebook.number(&request(world), FILTER, column);
         let line = Line::new(
             MILTON_PAPER,
@@ -72,7 +72,7 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
             &quantity,
             "1",
         )
-        .value(Option::zip(of(HALO_ORBIT), of(LOW_ORBIT)).map(|(halo, low)| halo / low))
+        .value(Option::zip(of(NRHO_VENTING), of(LEO_VENTING)).map(|(halo, low)| halo / low))
         .bound(Bound::between(0.0, 1.0));
         notebook.push(line);
     }
@@ -82,13 +82,14 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenarios::SCENARIOS;
+    use study::worlds;
 
     #[test]
     fn no_claim_of_the_paper_is_left_out() {
-        let has_claims = |world: &&Scenario| world.claims.iter().any(|c| c.filter == FILTER);
-        let with_claims: Vec<_> = SCENARIOS.iter().filter(has_claims).map(|w| w.name).collect();
-        let run: Vec<_> = requests().iter().map(|r| r.scenario.name).collect();
+        let has_claims = |world: &String| claims::of(world).iter().any(|c| c.filter == FILTER);
+        let names = worlds::all().unwrap().into_iter().map(|w| w.name);
+        let with_claims: Vec<String> = names.filter(has_claims).collect();
+        let run: Vec<String> = requests().iter().map(|r| r.world().to_owned()).collect();
         assert_eq!(run, with_claims);
     }
 }

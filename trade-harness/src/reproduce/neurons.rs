@@ -4,10 +4,13 @@
 //! sum Phi_i^2, some 1 / m, for each error, whatever else the neurons are. So the number is swept twice: at the paper's
 //! learning rate, where more neurons mean a smaller gain, and with the rate in proportion, where only the number changes.
 
-use super::{Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request};
+use study::NAV;
+
+use super::chapter::{Chapter, NETWORK_PAPER};
+use super::line::Line;
+use super::notebook::{Laboratory, Notebook};
+use super::request::{FORMATION, Request};
 use crate::HarnessError;
-use crate::models::NAV;
-use crate::scenarios::FORMATION;
 
 pub(super) const CHAPTER: Chapter = Chapter {
     title: "Number of neurons",
@@ -50,15 +53,13 @@ fn sweep() -> impl Iterator<Item = (u32, f64)> {
 fn requests() -> Vec<Request> {
     let request = |(index, (neurons, rate)): (usize, (u32, f64))| {
         let kind = if index < NEURONS.len() { "" } else { "_same_gain" };
-        let request = Request::new(&FORMATION, &format!("neurons_{neurons}{kind}"), &[FILTER]).with_j2_alone();
-        Request {
-            one_run_in: ONE_RUN_IN,
-            ..request
-                .set(NAV, "rbfnn_aekf.neurons", &neurons.to_string())
-                .set(NAV, "rbfnn_aekf.learning_rate", &format!("{rate:?}"))
-                // The paper has no limit, and one neuron is beyond ours.
-                .set(NAV, "rbfnn_aekf.gain_limit", "1")
-        }
+        Request::new(FORMATION, &format!("neurons_{neurons}{kind}"), &[FILTER])
+            .with_j2_alone()
+            .set(NAV, "rbfnn_aekf.neurons", &neurons.to_string())
+            .set(NAV, "rbfnn_aekf.learning_rate", &format!("{rate:?}"))
+            // The paper has no limit, and one neuron is beyond ours.
+            .set(NAV, "rbfnn_aekf.gain_limit", "1")
+            .one_run_in(ONE_RUN_IN)
     };
     sweep().enumerate().map(request).collect()
 }

@@ -1,11 +1,14 @@
 //! Sec. IV.D: the same filters with process noise or gain off by a random factor (Table 4).
 
-use super::beyond::ratio;
-use super::nominal::{self, Row};
-use super::{Bound, Chapter, Laboratory, Line, NETWORK_PAPER, Notebook, Request, SHARE};
+use study::{Distribution, NAV, Variation};
+
+use super::chapter::{Chapter, NETWORK_PAPER, SHARE};
+use super::line::Line;
+use super::notebook::{Laboratory, Notebook};
+use super::request::{FORMATION, Request};
+use super::table::{self, Row, TABLE_3, ratio};
 use crate::HarnessError;
-use crate::models::{Distribution, NAV, Variation};
-use crate::scenarios::FORMATION;
+use crate::bound::Bound;
 
 pub(super) const CHAPTER: Chapter = Chapter {
     title: "Table 4: relative navigation, tuning off by a random factor",
@@ -51,8 +54,8 @@ const READING: &str =
 
 fn requests() -> Vec<Request> {
     let filters = TABLE_4.map(|row| row.filter);
-    let mut request = Request::new(&FORMATION, "off_nominal", &filters);
-    request.variations.push(Variation {
+    let mut request = Request::new(FORMATION, "off_nominal", &filters);
+    request.plan.variations.push(Variation {
         model: NAV.to_owned(),
         variable: "off_nominal".to_owned(),
         distribution: FACTOR,
@@ -61,14 +64,14 @@ fn requests() -> Vec<Request> {
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {
-    let nominal = nominal::request();
+    let nominal = table::request();
     for request in &requests() {
         notebook.run(laboratory, request)?;
         let mut lines = Vec::new();
         for row in &TABLE_4 {
             let held = HELD.iter().find(|(filter, _)| *filter == row.filter);
             let held = held.map_or([false; 2], |(_, which)| *which);
-            let found = nominal::errors(notebook, request, "Table 4", row.filter);
+            let found = table::errors(notebook, request, "Table 4", row.filter);
             let columns = ["pos_rmse_m", "vel_rmse_m_s"];
             let printed = [row.position, row.velocity];
             for (index, line) in found.into_iter().enumerate() {
@@ -82,7 +85,7 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
                         .note("held to the direction only: worse than under nominal tuning")
                 });
             }
-            lines.extend(nominal::consistency(notebook, request, "beside Table 4", row.filter));
+            lines.extend(table::consistency(notebook, request, "beside Table 4", row.filter));
         }
         let columns = [("position", "pos_rmse_m"), ("velocity", "vel_rmse_m_s")];
         for (index, (name, column)) in columns.into_iter().enumerate() {
@@ -93,7 +96,7 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
                     notebook.number(&nominal, filter, column),
                 )
             };
-            for (row, before) in TABLE_4.iter().zip(&nominal::TABLE_3) {
+            for (row, before) in TABLE_4.iter().zip(&TABLE_3) {
                 let quantity = format!("{} {name} RMSE, off-nominal over nominal", row.filter);
                 let line = Line::new(NETWORK_PAPER, "Tables 3 and 4", &quantity, "1")
                     .printed(printed(row) / printed(before))
@@ -137,7 +140,7 @@ mod tests {
     #[test]
     fn both_tables_have_the_same_rows() {
         let filters = |table: &[Row]| table.iter().map(|row| row.filter).collect::<Vec<_>>();
-        assert_eq!(filters(&TABLE_4), filters(&nominal::TABLE_3));
+        assert_eq!(filters(&TABLE_4), filters(&TABLE_3));
         assert!(HELD.iter().all(|(filter, _)| filters(&TABLE_4).contains(filter)));
     }
 }

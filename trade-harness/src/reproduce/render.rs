@@ -1,9 +1,9 @@
 //! `reproduce.csv` and `reproduce.md`.
 
-use super::{Line, Notebook, Verdict};
+use super::line::{Line, Verdict};
+use super::notebook::Notebook;
 use crate::HarnessError;
-use crate::report::table::number;
-use crate::report::{cell, finished};
+use crate::format::{Align, cell, finished, markdown_table, number};
 
 const COLUMNS: [&str; 13] = [
     "chapter",
@@ -56,27 +56,36 @@ pub fn markdown(notebook: &Notebook, heading: &str) -> String {
         "# What the two papers print, rerun\n\n{heading}\n\n\
         A verdict of a required line decides whether the reproduction stands; the others say whether the paper's claim does.\n"
     );
-    let mut chapter = "";
-    for (title, line) in &notebook.lines {
-        if *title != chapter {
-            chapter = title;
-            text.push_str(&format!(
-                "\n## {title}\n\n| item | quantity | unit | paper | here | bound | verdict | note |\n|---|---|---|---|---|---|---|---|\n"
-            ));
-        }
-        text.push_str(&format!(
-            "| {} | {} | {} | {} | {} | {} | {} | {} |\n",
-            line.item,
-            line.quantity,
-            line.unit,
-            line.printed.map(printed).unwrap_or_default(),
-            found(line),
-            bound(line),
-            verdict(line),
-            line.note
-        ));
+    for chapter in notebook.lines.chunk_by(|(one, _), (next, _)| one == next) {
+        let Some((title, _)) = chapter.first() else { continue };
+        let rows = chapter.iter().map(|(_, line)| cells(line));
+        text.push_str(&format!("\n## {title}\n\n{}", markdown_table(&HEADERS, rows)));
     }
     text
+}
+
+const HEADERS: [(&str, Align); 8] = [
+    ("item", Align::Left),
+    ("quantity", Align::Left),
+    ("unit", Align::Left),
+    ("paper", Align::Left),
+    ("here", Align::Left),
+    ("bound", Align::Left),
+    ("verdict", Align::Left),
+    ("note", Align::Left),
+];
+
+fn cells(line: &Line) -> [String; HEADERS.len()] {
+    [
+        line.item.clone(),
+        line.quantity.clone(),
+        line.unit.to_owned(),
+        line.printed.map(printed).unwrap_or_default(),
+        found(line),
+        bound(line),
+        verdict(line),
+        line.note.clone(),
+    ]
 }
 
 /// As few digits as read back as the same number; the paper's rounding is its own.
@@ -137,7 +146,7 @@ fn verdict(line: &Line) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reproduce::Bound;
+    use crate::bound::Bound;
 
     fn notebook() -> Notebook {
         let lines = vec![
@@ -162,10 +171,9 @@ mod tests {
                     .note("a, b"),
             ),
         ];
-        Notebook {
-            lines,
-            ..Notebook::default()
-        }
+        let mut notebook = Notebook::default();
+        notebook.lines = lines;
+        notebook
     }
 
     #[test]

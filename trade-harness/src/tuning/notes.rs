@@ -28,7 +28,7 @@ pub fn notes(searched: &Searched, options: &Options) -> Vec<String> {
     } else if winner.tally.nees().is_none() {
         notes.push("no covariance, so the NEES limits do not apply".to_owned());
     }
-    for (index, axis) in searched.axes.iter().enumerate() {
+    for (index, axis) in searched.contender.axes.iter().enumerate() {
         let value = winner.values.as_ref().map_or(axis.start, |v| v.get(index).copied());
         if let Some(end) = value.and_then(|v| axis.edge(v)) {
             notes.push(format!("{} is at the {end} edge of its range", axis.variable));

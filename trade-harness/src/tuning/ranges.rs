@@ -1,15 +1,47 @@
 //! Which parameters of a filter are searched, and over which range.
 
+use std::str::FromStr;
+
 use cosim::Value;
 use fmi2_import::ModelDescription;
+use study::{Assignment, Model, Participant, check_real_range};
 
 use crate::HarnessError;
-use crate::models::{Assignment, Model, Participant, Range, check_real_range};
 
 /// Share of a range, counted in decades, that is called its edge.
 const EDGE: f64 = 0.05;
 /// Significant digits of a searched value: finer ones would mean nothing, and tables show them all.
 const DIGITS: i32 = 4;
+
+/// `MODEL.VARIABLE=LOW:HIGH`, what a search may vary.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Range {
+    /// `fmu-nav` or the label of a foreign filter.
+    pub model: String,
+    /// Name of a Real parameter of that FMU.
+    pub variable: String,
+    /// Smallest value; not checked here.
+    pub low: f64,
+    /// Largest value.
+    pub high: f64,
+}
+
+impl FromStr for Range {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("'{text}' is not MODEL.VARIABLE=LOW:HIGH, as in fmu-nav.snc.q=1e-6:1e-3");
+        let Assignment { model, variable, value } = text.parse().map_err(|_| wrong())?;
+        let number = |text: &str| text.trim().parse().map_err(|_| wrong());
+        let (low, high) = value.split_once(':').ok_or_else(wrong)?;
+        Ok(Self {
+            model,
+            variable,
+            low: number(low)?,
+            high: number(high)?,
+        })
+    }
+}
 
 /// One parameter of a filter and the range it is searched over, on a logarithmic scale.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,7 +107,7 @@ pub fn axes(
     ranges: &[Range],
     fixed: &[Assignment],
 ) -> Result<Vec<Axis>, HarnessError> {
-    let description = model.fmu.description();
+    let description = model.description();
     let own = |variable: &str| filter.is_none_or(|f| concerns(description, f, variable));
     let is_set = |variable: &str| fixed.iter().any(|a| a.model == model.name && a.variable == variable);
     let asked = || ranges.iter().filter(|r| r.model == model.name && own(&r.variable));
@@ -133,7 +165,7 @@ fn check(model: &Model, name: &str, low: f64, high: f64) -> Result<(), HarnessEr
             high,
         });
     }
-    check_real_range(model, name, [low, high])
+    Ok(check_real_range(model, name, [low, high])?)
 }
 
 fn start(description: &ModelDescription, participant: &Participant, name: &str) -> Option<f64> {
@@ -157,6 +189,23 @@ mod tests {
             low: 1e-6,
             high: 1e-2,
             start,
+        }
+    }
+
+    #[test]
+    fn ranges_are_two_numbers() {
+        let range: Range = "fmu-nav.snc.q=1e-6:1e-3".parse().unwrap();
+        assert_eq!((range.model.as_str(), range.variable.as_str()), ("fmu-nav", "snc.q"));
+        assert!((range.low / 1e-6 - 1.0).abs() < 1e-15 && (range.high / 1e-3 - 1.0).abs() < 1e-15);
+        for bad in [
+            "",
+            "fmu-nav.snc.q",
+            "fmu-nav.snc.q=1",
+            "fmu-nav.snc.q=1:",
+            "fmu-nav.snc.q=a:2",
+            "snc=1:2",
+        ] {
+            assert!(bad.parse::<Range>().unwrap_err().contains("LOW:HIGH"), "{bad}");
         }
     }
 

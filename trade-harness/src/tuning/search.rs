@@ -5,6 +5,8 @@
 //! that fill a smaller box around the best candidate so far. The first of those boxes is as wide as the points before it
 //! lay apart, and each is narrower than the last by what its points resolve, but never by more than half.
 
+use std::collections::VecDeque;
+
 use super::design::Design;
 use super::standing::Standing;
 
@@ -22,66 +24,85 @@ pub enum Candidate {
     Point(Vec<f64>),
 }
 
-/// One search, asked for candidates and told how they did, in turns.
+/// Candidates that are tried together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Round {
+    /// Number, from 0: the whole box.
+    pub number: usize,
+    /// In the order in which [`Search::tell`] wants to hear of them.
+    pub candidates: Vec<Candidate>,
+}
+
+/// What is known of a round before its candidates are.
+#[derive(Debug)]
+struct Planned {
+    number: usize,
+    /// Number of candidates, at least one.
+    count: usize,
+    /// Half of the side of the box around the best so far; `None` for the whole box with the start in it.
+    half_width: Option<f64>,
+}
+
+/// One search: it gives a round of candidates and is told how they did, in turns.
 #[derive(Debug)]
 pub struct Search {
     start: Vec<Option<f64>>,
     design: Design,
-    budget: usize,
-    half_width: f64,
-    /// Candidates of the turn that is under way.
-    asked: Vec<Candidate>,
+    /// Rounds to come.
+    rounds: VecDeque<Planned>,
+    /// Candidates that nothing has been told of yet.
+    asked: VecDeque<Candidate>,
     /// Everything tried, in order.
     tried: Vec<(Candidate, Standing)>,
-    turns: usize,
 }
 
 impl Search {
     /// * `start`: coordinates of the starting point in the unit cube, as far as they are known; one for each value varied.
+    ///   Without anything to vary there is the start alone.
     /// * `budget`: number of candidates.
     /// * `seed`: selects the points.
     pub fn new(start: Vec<Option<f64>>, budget: usize, seed: u64) -> Self {
-        let whole = budget.div_ceil(2).max(1) as f64;
+        let budget = if start.is_empty() { budget.min(1) } else { budget };
         Self {
             design: Design::new(start.len(), seed),
-            half_width: spacing(whole, start.len()),
+            rounds: plan(budget, start.len()),
             start,
-            budget,
-            asked: Vec::new(),
+            asked: VecDeque::new(),
             tried: Vec::new(),
-            turns: 0,
         }
     }
 
-    /// The next candidates; none when the budget is spent. Without anything to vary there is the start alone.
-    pub fn ask(&mut self) -> &[Candidate] {
-        self.asked = if self.turns == 0 {
-            let others = if self.start.is_empty() {
-                0
-            } else {
-                self.budget.div_ceil(2)
-            };
-            let mut first = vec![Candidate::Start];
-            first.extend((1..others).map(|_| Candidate::Point(self.design.next())));
-            first.truncate(self.budget);
-            first
-        } else if self.start.is_empty() {
-            Vec::new()
-        } else {
-            self.around_the_best()
+    /// The next round; `None` when the budget is spent.
+    pub fn next_round(&mut self) -> Option<Round> {
+        let Planned {
+            number,
+            count,
+            half_width,
+        } = self.rounds.pop_front()?;
+        let candidates: Vec<Candidate> = match half_width {
+            None => {
+                let others = (1..count).map(|_| Candidate::Point(self.design.next()));
+                std::iter::once(Candidate::Start).chain(others).collect()
+            }
+            Some(half_width) => {
+                let centre = self.centre();
+                let within = |centre: f64, u: f64| {
+                    let (low, high) = ((centre - half_width).max(0.0), (centre + half_width).min(1.0));
+                    low + (high - low) * u
+                };
+                let points = (0..count).map(|_| self.design.next());
+                let moved = |point: Vec<f64>| centre.iter().zip(point).map(|(c, u)| within(*c, u)).collect();
+                points.map(moved).map(Candidate::Point).collect()
+            }
         };
-        &self.asked
+        self.asked.extend(candidates.iter().cloned());
+        Some(Round { number, candidates })
     }
 
-    /// How the candidates asked for last have done, in their order.
-    pub fn tell(&mut self, standings: impl IntoIterator<Item = Standing>) {
-        self.tried.extend(self.asked.drain(..).zip(standings));
-        self.turns += 1;
-    }
-
-    /// Turns told so far.
-    pub fn turns(&self) -> usize {
-        self.turns
+    /// How the next of the candidates that were given has done.
+    pub fn tell(&mut self, standing: Standing) {
+        let candidate = self.asked.pop_front();
+        self.tried.extend(candidate.map(|c| (c, standing)));
     }
 
     /// Number of the best candidate so far, from 0; of equals the first.
@@ -91,33 +112,6 @@ impl Search {
         tried
             .min_by(|(_, a), (_, b)| a.1.total_cmp(&b.1))
             .map(|(index, _)| index)
-    }
-
-    fn around_the_best(&mut self) -> Vec<Candidate> {
-        let rest = self.budget - self.budget.div_ceil(2);
-        let until = |round: usize| rest * round.min(ROUNDS) / ROUNDS;
-        // With few evaluations a round may be empty.
-        let Some(count) = (self.turns..=ROUNDS)
-            .map(|r| (r, until(r) - until(r - 1)))
-            .find(|(_, n)| *n > 0)
-        else {
-            return Vec::new();
-        };
-        let (round, count) = count;
-        self.turns = round;
-        let centre = self.centre();
-        let half_width = self.half_width;
-        self.half_width *= spacing(count as f64, centre.len()).max(NARROWEST);
-        let within = |centre: f64, u: f64| {
-            let (low, high) = ((centre - half_width).max(0.0), (centre + half_width).min(1.0));
-            low + (high - low) * u
-        };
-        (0..count)
-            .map(|_| {
-                let point = self.design.next();
-                Candidate::Point(centre.iter().zip(point).map(|(c, u)| within(*c, u)).collect())
-            })
-            .collect()
     }
 
     /// The best candidate; what is not known of it is taken from the best that is known.
@@ -138,6 +132,33 @@ impl Search {
                 .collect(),
         }
     }
+}
+
+/// Every round of a search: half of the budget in the whole box, the rest in boxes that become narrower.
+fn plan(budget: usize, dimension: usize) -> VecDeque<Planned> {
+    let whole = budget.div_ceil(2);
+    let rest = budget - whole;
+    let until = |round: usize| rest * round / ROUNDS;
+    let mut rounds = VecDeque::from([Planned {
+        number: 0,
+        count: whole,
+        half_width: None,
+    }]);
+    let mut half_width = spacing(whole.max(1) as f64, dimension);
+    for number in 1..=ROUNDS {
+        let count = until(number) - until(number - 1);
+        // With few evaluations a round may be empty; it makes no box narrower.
+        if count > 0 {
+            rounds.push_back(Planned {
+                number,
+                count,
+                half_width: Some(half_width),
+            });
+            half_width *= spacing(count as f64, dimension).max(NARROWEST);
+        }
+    }
+    rounds.retain(|round| round.count > 0);
+    rounds
 }
 
 /// Distance of neighbours when this many points fill a unit cube.
@@ -166,14 +187,14 @@ mod tests {
     ) -> (Vec<(Candidate, f64)>, usize) {
         let mut search = Search::new(start, budget, seed);
         let mut tried = Vec::new();
-        loop {
-            let asked: Vec<_> = search.ask().iter().map(|c| (c.clone(), value(c))).collect();
-            if asked.is_empty() {
-                return (tried, search.best().unwrap());
+        while let Some(round) = search.next_round() {
+            for candidate in round.candidates {
+                let found = value(&candidate);
+                search.tell(standing(found));
+                tried.push((candidate, found));
             }
-            search.tell(asked.iter().map(|(_, v)| standing(*v)));
-            tried.extend(asked);
         }
+        (tried, search.best().unwrap())
     }
 
     /// A bowl with its own curvature on each axis and a ripple that stands for shared noise.
@@ -226,16 +247,14 @@ mod tests {
             Candidate::Point(p) => p[0],
         };
         let mut tried = Vec::new();
-        loop {
-            let asked: Vec<f64> = search.ask().iter().map(place).collect();
-            if asked.is_empty() {
-                break;
+        while let Some(round) = search.next_round() {
+            for p in round.candidates.iter().map(place) {
+                search.tell(Standing {
+                    violation: (0.6 - p).max(0.0),
+                    ..standing((p - 0.2).abs())
+                });
+                tried.push(p);
             }
-            search.tell(asked.iter().map(|p| Standing {
-                violation: (0.6 - p).max(0.0),
-                ..standing((p - 0.2).abs())
-            }));
-            tried.extend(asked);
         }
         let best = tried[search.best().unwrap()];
         assert!((0.6..0.61).contains(&best), "{best}");
@@ -273,7 +292,10 @@ mod tests {
             assert!(tried.iter().all(|(c, _)| inside(c)));
             assert_eq!(tried.iter().filter(|(c, _)| *c == Candidate::Start).count(), 1);
         }
-        assert!(Search::new(Vec::new(), 0, 1).ask().is_empty());
+        assert!(Search::new(Vec::new(), 0, 1).next_round().is_none());
+        let mut alone = Search::new(Vec::new(), 9, 1);
+        assert_eq!(alone.next_round().unwrap().candidates, [Candidate::Start]);
+        assert!(alone.next_round().is_none());
     }
 
     /// The starting point wins; where its coordinate is known the boxes lie around it, else around the best that is.

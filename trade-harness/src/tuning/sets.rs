@@ -1,14 +1,13 @@
 //! `tuned.json`: what a search found, in a form that `--tuned` reads back.
 
-use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use study::TunedSet;
 
 use crate::HarnessError;
-use crate::models::PAPER;
-use crate::report::json_bytes;
+use crate::format::json_bytes;
 
 /// The file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -33,41 +32,6 @@ pub struct TunedFile {
     pub set: Vec<String>,
     /// The winners.
     pub sets: Vec<TunedSet>,
-}
-
-/// The best values of one filter in one scenario.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct TunedSet {
-    /// The file it was read from, for messages.
-    #[serde(skip)]
-    pub file: Option<PathBuf>,
-    /// Where it was tuned, and alone counts.
-    pub scenario: String,
-    /// Filter of fmu-nav, or label of a foreign filter.
-    pub filter: String,
-    /// Preset that the search started from, and that holds for all it did not vary.
-    pub preset: String,
-    /// Name of this set after the `@`.
-    pub name: String,
-    /// Parameter and value; empty when the starting point was best.
-    pub values: BTreeMap<String, f64>,
-    /// Objective on the search's own worlds, m, m/s or m/s2.
-    pub search_objective: Option<f64>,
-    /// NEES over its dimension there.
-    pub search_nees: Option<f64>,
-    /// Whether no run went wrong there and the NEES was within its limits.
-    pub feasible: bool,
-}
-
-impl TunedSet {
-    /// Name after the `@` of what a search makes of a preset.
-    pub fn name_for(preset: &str) -> String {
-        if preset == PAPER {
-            "tuned".to_owned()
-        } else {
-            format!("{preset}-tuned")
-        }
-    }
 }
 
 impl TunedFile {
@@ -99,9 +63,17 @@ impl TunedFile {
     }
 }
 
+/// Puts what a search found in place of sets of the same names.
+pub fn add(sets: &mut Vec<TunedSet>, found: &[TunedSet]) {
+    let same = |a: &TunedSet, b: &TunedSet| (&a.scenario, &a.filter, &a.name) == (&b.scenario, &b.filter, &b.name);
+    sets.retain(|old| !found.iter().any(|new| same(old, new)));
+    sets.extend_from_slice(found);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use study::PAPER;
 
     #[test]
     fn what_is_written_is_read_back_to_the_last_bit() {

@@ -4,10 +4,9 @@ use std::cmp::Ordering;
 
 use clap::ValueEnum;
 
-use super::tally::Tally;
+use study::{Quantity, Summary, Tally};
+
 use crate::HarnessError;
-use crate::report::summary::SummaryRow;
-use crate::score::Quantity;
 
 /// The error that a search makes small.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -30,21 +29,12 @@ impl Objective {
         }
     }
 
-    /// Column of `summary.csv`.
-    pub fn column(self) -> &'static str {
+    /// Its value in a judged study, m, m/s or m/s2.
+    pub fn of(self, row: &Summary) -> Option<f64> {
         match self {
-            Self::Position => "pos_rmse_m",
-            Self::Velocity => "vel_rmse_m_s",
-            Self::Acceleration => "acc_rmse_m_s2",
-        }
-    }
-
-    /// The same of a judged study.
-    pub fn of(self, row: &SummaryRow) -> Option<f64> {
-        match self {
-            Self::Position => row.pos_rmse_m,
-            Self::Velocity => row.vel_rmse_m_s,
-            Self::Acceleration => row.acc_rmse_m_s2,
+            Self::Position => row.position.rmse,
+            Self::Velocity => row.velocity.rmse,
+            Self::Acceleration => row.acceleration.rmse,
         }
     }
 

@@ -1,12 +1,11 @@
 //! Every filter of a scenario searched at once, side by side in the same worlds.
 
+use study::{Participant, Spec, Tally, evaluate};
+
+use super::contender::Contender;
 use super::ranges::Axis;
 use super::search::{Candidate, Search};
 use super::standing::{Limits, Objective, Standing};
-use super::tally::{Tally, evaluate};
-use crate::HarnessError;
-use crate::models::Participant;
-use crate::run::Spec;
 
 /// Candidates in one run at most; each is a slave of its own beside the truth.
 const TOGETHER: usize = 64;
@@ -42,10 +41,8 @@ pub struct Evaluation {
 /// One filter's search.
 #[derive(Debug)]
 pub struct Searched {
-    /// The filter before the search.
-    pub base: Participant,
-    /// What is varied.
-    pub axes: Vec<Axis>,
+    /// Whose search it is.
+    pub contender: Contender,
     /// Every candidate, in order.
     pub evaluations: Vec<Evaluation>,
     search: Search,
@@ -74,21 +71,28 @@ impl Searched {
 
     /// A candidate's values: a name and a number each, none for the starting point.
     pub fn settings<'a>(&'a self, evaluation: &'a Evaluation) -> impl Iterator<Item = (&'a str, f64)> {
-        let names = self.axes.iter().map(|a| a.variable.as_str());
+        let names = self.contender.axes.iter().map(|a| a.variable.as_str());
         names.zip(evaluation.values.iter().flatten().copied())
     }
 
     fn values(&self, candidate: &Candidate) -> Option<Vec<f64>> {
         match candidate {
             Candidate::Start => None,
-            Candidate::Point(point) => Some(self.axes.iter().zip(point).map(|(a, u)| a.value(*u)).collect()),
+            Candidate::Point(point) => Some(
+                self.contender
+                    .axes
+                    .iter()
+                    .zip(point)
+                    .map(|(a, u)| a.value(*u))
+                    .collect(),
+            ),
         }
     }
 
     fn participant(&self, number: usize, values: Option<&[f64]>) -> Participant {
-        let mut participant = self.base.clone();
-        participant.label = format!("{}#{number}", self.base.label);
-        for (axis, value) in self.axes.iter().zip(values.unwrap_or_default()) {
+        let mut participant = self.contender.base.clone();
+        participant.label = format!("{}#{number}", self.contender.base.label);
+        for (axis, value) in self.contender.axes.iter().zip(values.unwrap_or_default()) {
             participant.set_real(&axis.variable, *value);
         }
         participant
@@ -105,27 +109,25 @@ pub struct Tuning {
 }
 
 impl Tuning {
-    /// * `spec`: the world and its seed, and each filter at its starting point.
-    /// * `axes`: what is searched, by filter; a filter with none is not evaluated.
-    pub fn new(mut spec: Spec, axes: Vec<Vec<Axis>>, options: Options) -> Self {
+    /// * `spec`: the world and its seed; its filters take no part but as contenders.
+    /// * `contenders`: one with nothing to search is not evaluated.
+    pub fn new(spec: Spec, contenders: Vec<Contender>, options: Options) -> Self {
         let seed = u64::from(spec.seed.unsigned_abs());
-        let searched = |(base, axes): (Participant, Vec<Axis>)| Searched {
-            search: Search::new(
-                axes.iter().map(Axis::start_fraction).collect(),
-                if axes.is_empty() {
-                    0
-                } else {
-                    options.evaluations as usize
-                },
-                seed,
-            ),
-            base,
-            axes,
-            evaluations: Vec::new(),
+        let searched = |contender: Contender| {
+            let start: Vec<_> = contender.axes.iter().map(Axis::start_fraction).collect();
+            let budget = if start.is_empty() {
+                0
+            } else {
+                options.evaluations as usize
+            };
+            Searched {
+                search: Search::new(start, budget, seed),
+                contender,
+                evaluations: Vec::new(),
+            }
         };
-        let filters = std::mem::take(&mut spec.filters).into_iter().zip(axes).map(searched);
         Self {
-            filters: filters.collect(),
+            filters: contenders.into_iter().map(searched).collect(),
             spec,
             options,
         }
@@ -133,55 +135,47 @@ impl Tuning {
 
     /// Runs of candidates that the whole search takes.
     pub fn work(&self) -> u64 {
-        let searched = self.filters.iter().filter(|f| !f.axes.is_empty()).count() as u64;
+        let searched = self.filters.iter().filter(|f| !f.contender.axes.is_empty()).count() as u64;
         searched * u64::from(self.options.evaluations) * u64::from(self.options.runs)
     }
 
     /// One round of every filter; `false` when there was none left.
     ///
     /// * `finished`: called after each run with the number of candidates in it.
-    ///
-    /// # Errors
-    /// As for [`evaluate`].
-    pub fn round(&mut self, mut finished: impl FnMut(u64)) -> Result<bool, HarnessError> {
-        // (filter, values) of every candidate of the round.
-        let mut asked: Vec<(usize, Option<Vec<f64>>)> = Vec::new();
+    pub fn round(&mut self, mut finished: impl FnMut(u64)) -> bool {
+        // Candidates of the round: whose, in which of its rounds, and with which values.
+        let mut asked: Vec<(usize, usize, Option<Vec<f64>>)> = Vec::new();
         for (index, filter) in self.filters.iter_mut().enumerate() {
-            let candidates = filter.search.ask().to_vec();
-            asked.extend(candidates.iter().map(|c| (index, filter.values(c))));
+            if let Some(round) = filter.search.next_round() {
+                let values = round.candidates.iter().map(|c| filter.values(c));
+                asked.extend(values.map(|values| (index, round.number, values)));
+            }
         }
         let mut tallies = Vec::with_capacity(asked.len());
         for batch in asked.chunks(TOGETHER) {
-            let number = tallies.len();
             let participants = batch
                 .iter()
-                .zip(number..)
-                .map(|((filter, values), number)| self.filters[*filter].participant(number, values.as_deref()));
+                .zip(tallies.len()..)
+                .map(|((filter, _, values), number)| self.filters[*filter].participant(number, values.as_deref()));
             self.spec.filters = participants.collect();
             let beside = batch.len() as u64;
             tallies.extend(evaluate(&self.spec, self.options.runs, self.options.jobs, || {
-                finished(beside)
-            })?);
+                finished(beside);
+            }));
         }
+        let any = !asked.is_empty();
         let Options { objective, limits, .. } = self.options;
-        for (filter_index, filter) in self.filters.iter_mut().enumerate() {
-            let round = filter.search.turns();
-            let own = asked
-                .iter()
-                .zip(&tallies)
-                .filter(|((index, _), _)| *index == filter_index);
-            let evaluations = own.map(|((_, values), tally)| Evaluation {
+        for ((index, round, values), tally) in asked.into_iter().zip(tallies) {
+            let standing = Standing::new(&tally, objective, &limits);
+            let filter = &mut self.filters[index];
+            filter.search.tell(standing);
+            filter.evaluations.push(Evaluation {
                 round,
-                values: values.clone(),
-                tally: *tally,
-                standing: Standing::new(tally, objective, &limits),
+                values,
+                tally,
+                standing,
             });
-            let first = filter.evaluations.len();
-            filter.evaluations.extend(evaluations);
-            filter
-                .search
-                .tell(filter.evaluations[first..].iter().map(|e| e.standing));
         }
-        Ok(!asked.is_empty())
+        any
     }
 }

@@ -4,53 +4,34 @@
 use std::sync::Arc;
 
 use cosim::{BaseType, Causality, Port, Scheme, Slave, SlaveError};
-use trade_harness::HarnessError;
-use trade_harness::models::{Participant, SlaveSource};
-use trade_harness::run::Spec;
-use trade_harness::scenarios::{Residual, Scenario, Signal, Signals, target_rtn};
+use study::{Axes, Frame, Participant, SlaveSource, Spec, StatusItems, StudyError, World};
 
 /// 40 samples of 1 s, scored from the eleventh.
-pub static SCENARIO: Scenario = Scenario {
-    name: "mock",
-    about: "a target that stands still",
-    reference: "none",
-    duration: 40.0,
-    scored_from: 11.0,
-    signals: Signals {
-        position: Signal {
-            truth: "truth.r_tc_n",
-            estimate: "est.r_tc_n",
-        },
-        velocity: Signal {
-            truth: "truth.v_tc_n",
-            estimate: "est.v_tc_n",
-        },
-        acceleration: Signal {
-            truth: "truth.a_t_n",
-            estimate: "est.a_t_n",
-        },
-        bias: None,
-        chaser: Some(["truth.r_c_n", "truth.v_c_n"]),
-        measurement_valid: "lidar.valid",
-        residual: [
-            Some(Residual {
-                names: ["innov.range", "innov.azimuth", "innov.elevation"],
-                units: ["m", "rad", "rad"],
-                variance: "innov.s",
-            }),
-            None,
-        ],
+pub fn world() -> World {
+    World {
+        name: "mock".to_owned(),
+        about: "a target that stands still".to_owned(),
+        reference: "none".to_owned(),
+        duration_s: 40.0,
+        scored_from_s: 11.0,
+        sample_period_s: 1.0,
+        frame: Frame::Inertial,
+        axes: Axes::Rtn,
         nis_rows: 3,
-        axes: ["r", "t", "n"],
-        report_axes: target_rtn,
-    },
-    filters: &["good"],
-    claims: &[],
-};
+        filters: Vec::new(),
+        // What a mission says of it beyond this is nobody's business here.
+        ..study::worlds::find("leo_venting").unwrap()
+    }
+}
 
 /// Error of the estimate of a sample, the same on position and velocity; R, T, N are the axes x, y, z of this world.
 pub fn noise(run: i32, count: i32, axis: usize) -> f64 {
     (f64::from(run * 31 + count * 17) * 12.9898 + axis as f64 * 78.233).sin()
+}
+
+/// Seconds up to `until` at which a truth of two rates has sampled.
+pub fn two_rates(until: i32) -> Vec<i32> {
+    (1..=until).filter(|t| t % 2 == 0 || t % 3 == 0).collect()
 }
 
 /// True acceleration of this world, m/s2.
@@ -107,6 +88,8 @@ pub enum Quirk {
     },
     /// Has a parameter `gain`; its errors are least where that is `BEST_GAIN`, and `Participant::set_real` sets it.
     Tunable,
+    /// A truth whose LiDAR samples every 2 s and whose radio every 3 s, so that some seconds have no sample.
+    TwoRates,
     /// Samples of multiples of five hold no measurement; the NIS output keeps a wild value then.
     Drops,
 }
@@ -117,7 +100,7 @@ struct Source {
 }
 
 impl SlaveSource for Source {
-    fn create(&self, name: &str) -> Result<Box<dyn Slave>, HarnessError> {
+    fn create(&self, name: &str) -> Result<Box<dyn Slave>, StudyError> {
         Ok(Box::new(Mock::new(name, self.truth, self.quirk)))
     }
 }
@@ -131,6 +114,7 @@ fn participant(label: &str, truth: bool, quirk: Quirk) -> Participant {
         aliases: Vec::new(),
         starts: Vec::new(),
         varied: Vec::new(),
+        statuses: StatusItems::default(),
         record: Vec::new(),
     }
 }
@@ -138,7 +122,7 @@ fn participant(label: &str, truth: bool, quirk: Quirk) -> Participant {
 /// A study of these filters in the mock world.
 pub fn spec(truth: Quirk, filters: &[(&str, Quirk)]) -> Spec {
     Spec {
-        scenario: &SCENARIO,
+        world: world(),
         truth: participant("fmu-truth", true, truth),
         filters: filters
             .iter()
@@ -180,6 +164,9 @@ impl Mock {
         mock.port("sample_time", BaseType::Real, sensor);
         mock.port("sample_count", BaseType::Integer, sensor);
         mock.port("lidar.valid", BaseType::Boolean, sensor);
+        if quirk == Quirk::TwoRates {
+            mock.port("radio.valid", BaseType::Boolean, sensor);
+        }
         if quirk != Quirk::NoInitialEstimate {
             mock.port("nav_init.x[1]", BaseType::Real, sensor);
         }
@@ -217,6 +204,9 @@ impl Mock {
             mock.port("est.dimension", BaseType::Integer, Causality::Output);
             mock.port("status", BaseType::Integer, Causality::Output);
             mock.port("nis", BaseType::Real, Causality::Output);
+            if quirk == Quirk::TwoRates {
+                mock.port("nis.rows", BaseType::Integer, Causality::Output);
+            }
             for i in 1..=9 {
                 for j in 1..=9 {
                     mock.port(&format!("cov.p[{i},{j}]"), BaseType::Real, Causality::Local);
@@ -272,12 +262,21 @@ impl Mock {
 
     fn step_truth(&mut self, now: f64) {
         let late = if self.quirk == Quirk::OffGrid { 0.5 } else { 0.0 };
-        let count = (now - late + 1e-9).floor() as i32;
+        let seconds = (now - late + 1e-9).floor() as i32;
+        let count = if self.quirk == Quirk::TwoRates {
+            two_rates(seconds).len() as i32
+        } else {
+            seconds
+        };
         if count > self.integer("sample_count") {
             self.put_integer("sample_count", count);
-            self.put("sample_time", f64::from(count) + late);
+            self.put("sample_time", f64::from(seconds) + late);
             let valid = self.at("lidar.valid").unwrap();
             self.booleans[valid] = self.quirk != Quirk::Drops || count % 5 != 0;
+            if let Some(radio) = self.at("radio.valid") {
+                self.booleans[valid] = seconds % 2 == 0;
+                self.booleans[radio] = seconds % 3 == 0;
+            }
         }
         self.put("truth.r_tc_n[1]", 100.0);
         for axis in 0..3 {
@@ -321,12 +320,20 @@ impl Mock {
         }
         let tag = count - i32::from(self.quirk == Quirk::WrongTag);
         self.put_integer("est.count", tag);
-        self.put("est.time", f64::from(count));
+        let time = self.reals[self.at("sample_time").unwrap()];
+        self.put("est.time", time);
         self.put_integer("est.dimension", 6);
         let diverged = self.quirk == Quirk::SaysDiverged { run } && count == 5;
         self.put_integer("status", if diverged { 4 } else { 2 });
         let measured = self.booleans[self.at("lidar.valid").unwrap()];
-        self.put("nis", if measured { 6.0 } else { 1e6 });
+        // A filter that knows its radio: one row for each of it and the LiDAR's three, and a NIS of two for each.
+        if let (Some(radio), Some(rows)) = (self.at("radio.valid"), self.at("nis.rows")) {
+            self.integers[rows] = 3 * i32::from(measured) + i32::from(self.booleans[radio]);
+            let nis = 2.0 * f64::from(self.integers[rows]);
+            self.put("nis", nis);
+        } else {
+            self.put("nis", if measured { 6.0 } else { 1e6 });
+        }
         for i in 1..=6 {
             self.put(&format!("cov.p[{i},{i}]"), SIGMA * SIGMA);
         }

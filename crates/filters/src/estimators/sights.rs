@@ -6,7 +6,7 @@ use crate::units::Units;
 use astro::relative_axes::Reference;
 use astro::{AstroError, RelativeAxes};
 use interface::Navigation;
-use nalgebra::{Matrix3, SMatrix, SVector, Vector2, Vector3, Vector6};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3, Vector6};
 
 /// A prediction and its partials by r_tc and v_tc.
 pub(super) type Sight<const M: usize> = (SVector<f64, M>, SMatrix<f64, M, 6>);
@@ -79,31 +79,20 @@ pub(super) fn lidar(r_tc_n: &Vector3<f64>, dcm_l_n: &Matrix3<f64>) -> Sight<3> {
     (sensors::lidar::measure(&(dcm_l_n * r_tc_n)), h)
 }
 
-/// Camera: the angles of the LiDAR.
+/// Camera: azimuth and elevation, in the LiDAR's axes.
 pub(super) fn camera(r_tc_n: &Vector3<f64>, dcm_l_n: &Matrix3<f64>) -> Sight<2> {
-    let (predicted, h) = lidar(r_tc_n, dcm_l_n);
-    (
-        predicted.fixed_rows::<2>(1).into_owned(),
-        h.fixed_rows::<2>(1).into_owned(),
-    )
+    let mut h = SMatrix::<f64, 2, 6>::zeros();
+    h.fixed_view_mut::<2, 3>(0, 0)
+        .copy_from(&sensors::camera::jacobian(r_tc_n, dcm_l_n));
+    (sensors::camera::measure(&(dcm_l_n * r_tc_n)), h)
 }
 
-/// Radio: range and range rate u . v_tc with u along the line of sight.
-///
-/// In turning axes the inertial velocity is v + omega x r, but omega x r has no part along r: the rate of a distance is the
-/// same in any axes, and so are its partials.
+/// Radio: range and range rate, which are the same in turning axes.
 pub(super) fn radio(r_tc_n: &Vector3<f64>, v_tc_n: &Vector3<f64>) -> Sight<2> {
-    let range = r_tc_n.norm();
-    let u = r_tc_n / range;
-    let rate = u.dot(v_tc_n);
-    let across = (v_tc_n - u * rate) / range;
-    let mut h = SMatrix::<f64, 2, 6>::zeros();
-    for axis in 0..3 {
-        h[(0, axis)] = u[axis];
-        h[(1, axis)] = across[axis];
-        h[(1, 3 + axis)] = u[axis];
-    }
-    (Vector2::new(range, rate), h)
+    (
+        sensors::radio::measure(r_tc_n, v_tc_n),
+        sensors::radio::jacobian(r_tc_n, v_tc_n),
+    )
 }
 
 /// Metrology: the chaser from the target, in the LVLH axes of the estimated target.
@@ -151,33 +140,6 @@ mod tests {
 
     fn parts(x: &Vector6<f64>) -> (Vector3<f64>, Vector3<f64>) {
         (x.fixed_rows::<3>(0).into_owned(), x.fixed_rows::<3>(3).into_owned())
-    }
-
-    #[test]
-    fn rows_are_central_differences() {
-        let x = Vector6::new(30.0, -50.0, 20.0, 0.3, 0.1, -0.2);
-        let dcm = nalgebra::Rotation3::from_euler_angles(0.3, -1.1, 2.0).into_inner();
-        let (r, v) = parts(&x);
-        // Truncation of second differences, (1e-2 m / 60 m)^2 of a slope.
-        let close = |ours: f64, expected: f64| (ours - expected).abs() < 1e-6;
-        let ours = camera(&r, &dcm);
-        let expected = slopes(&x, |x| camera(&parts(x).0, &dcm).0);
-        assert!(ours.1.iter().zip(expected.iter()).all(|(a, b)| close(*a, *b)));
-        let ours = radio(&r, &v);
-        let expected = slopes(&x, |x| radio(&parts(x).0, &parts(x).1).0);
-        assert!(ours.1.iter().zip(expected.iter()).all(|(a, b)| close(*a, *b)));
-        assert!((ours.0[1] - v.dot(&r.normalize())).abs() < 1e-15);
-    }
-
-    /// The rate of the distance by a finite step of an inertial motion, in axes that turn.
-    #[test]
-    fn range_rate_needs_no_turning_of_the_axes() {
-        let (omega, dt) = (0.3, 1e-4);
-        let (r, v) = (Vector3::new(3.0, -5.0, 2.0), Vector3::new(0.3, 0.1, -0.2));
-        // Seen in axes that turn by omega about z, a point that moves by v there.
-        let inertial = |t: f64| nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), omega * t) * (r + v * t);
-        let rate = (inertial(dt).norm() - inertial(-dt).norm()) / (2.0 * dt);
-        assert!((radio(&r, &v).0[1] - rate).abs() < 1e-7);
     }
 
     #[test]

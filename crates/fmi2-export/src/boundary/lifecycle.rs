@@ -1,6 +1,7 @@
 //! Inquiry, logging, creation, initialization, end.
 
 use std::ffi::{CStr, c_char, c_int};
+use std::path::PathBuf;
 use std::ptr;
 
 use fmi_model::{Experiment, Wanted, braced, guarded};
@@ -8,6 +9,7 @@ use fmi2_abi::{
     FMI_VERSION, Fmi2Boolean, Fmi2CallbackFunctions, Fmi2Component, Fmi2Real, Fmi2Status, Fmi2String, Fmi2Type,
     RawStatus, TYPES_PLATFORM, truth,
 };
+use percent_encoding::percent_decode_str;
 
 use super::call::call;
 use super::handle::Handle;
@@ -45,12 +47,13 @@ pub unsafe fn set_debug_logging<M: Exported>(
 }
 
 /// Answers null for a wrong GUID, an interface other than co-simulation, an empty name, or a faulty definition, and says which to
-/// the logger. Resource location and visibility are not used.
+/// the logger. Visibility is not
+/// used, and a resource location that is no folder of this machine is taken as none.
 pub unsafe fn instantiate<M: Exported>(
     name: Fmi2String,
     fmu_type: c_int,
     guid: Fmi2String,
-    _resource_location: Fmi2String,
+    resource_location: Fmi2String,
     functions: *const Fmi2CallbackFunctions,
     _visible: Fmi2Boolean,
     logging_on: Fmi2Boolean,
@@ -70,7 +73,11 @@ pub unsafe fn instantiate<M: Exported>(
     let created = guarded(|| {
         // SAFETY: `name` and `guid` are strings; see the module.
         let (name, guid) = unsafe { (memory::text("instanceName", name), memory::text("fmuGUID", guid)) };
-        let created = create::<M>(name, fmu_type, guid, truth(logging_on), &sink);
+        // SAFETY: null or a string; see the module.
+        let location =
+            (!resource_location.is_null()).then(|| unsafe { memory::text("fmuResourceLocation", resource_location) });
+        let resources = location.and_then(Result::ok).and_then(folder_of);
+        let created = create::<M>(name, fmu_type, guid, resources, truth(logging_on), &sink);
         created.map_err(|error| error.chain())
     });
     let (status, reason) = match created {
@@ -87,6 +94,7 @@ fn create<M: Exported>(
     name: Result<&str, CallError>,
     fmu_type: c_int,
     given: Result<&str, CallError>,
+    resources: Option<PathBuf>,
     logging_on: bool,
     sink: &Sink,
 ) -> Result<Box<Handle<M>>, CallError> {
@@ -100,17 +108,42 @@ fn create<M: Exported>(
     }
     let guid = own_guid::<M>()?;
     let (given, own) = (given?, braced(guid));
+    // What an FMU was packed with may make it another.
+    let own = resources
+        .as_deref()
+        .and_then(|folder| M::identifier_with(&own, folder))
+        .unwrap_or(own);
     if given != own {
         return Err(CallError::WrongGuid {
             given: given.to_owned(),
             own,
         });
     }
-    let instance = Instance::new(Logger {
+    let logger = Logger {
         sink: sink.clone(),
         wanted: Wanted::new(logging_on, &[]),
-    });
+    };
+    let instance = Instance::new(logger, resources);
     Ok(Box::new(Handle::new(guid, sink.clone(), instance)))
+}
+
+/// The folder that a resource location names: a `file:` URI as the standard asks for, or a plain path as some hosts give.
+fn folder_of(location: &str) -> Option<PathBuf> {
+    let path = match location.strip_prefix("file:") {
+        None => location.to_owned(),
+        Some(rest) => {
+            let rest = rest
+                .strip_prefix("//")
+                .map_or(rest, |rest| rest.strip_prefix("localhost").unwrap_or(rest));
+            // A drive of Windows stands behind a slash of its own.
+            let rest = match rest.as_bytes() {
+                [b'/', drive, b':', ..] if drive.is_ascii_alphabetic() => &rest[1..],
+                _ => rest,
+            };
+            percent_decode_str(rest).decode_utf8().ok()?.into_owned()
+        }
+    };
+    Some(PathBuf::from(path)).filter(|path| path.is_dir())
 }
 
 /// Frees the instance in whatever phase it is. Null is fine.
@@ -184,4 +217,29 @@ pub unsafe fn terminate<M: Exported>(component: Fmi2Component) -> RawStatus {
 pub unsafe fn reset<M: Exported>(component: Fmi2Component) -> RawStatus {
     // SAFETY: see the module.
     unsafe { call::<M>(component, &order::RESET, Instance::reset) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn resource_locations_of_every_host_lead_to_the_folder() {
+        let base = tempfile::tempdir().unwrap();
+        let folder = base.path().join("with space");
+        std::fs::create_dir(&folder).unwrap();
+        let plain = folder.to_str().unwrap();
+        let coded = plain.replace(' ', "%20");
+        for location in [
+            plain.to_owned(),
+            format!("file:{coded}"),
+            format!("file://{coded}"),
+            format!("file://localhost{coded}"),
+        ] {
+            assert_eq!(folder_of(&location).as_deref(), Some(folder.as_path()), "{location}");
+        }
+        for location in ["", "file:///no/such/folder", "http://example.org/resources"] {
+            assert_eq!(folder_of(location), None, "{location}");
+        }
+    }
 }

@@ -67,7 +67,7 @@ fn refused_sets_change_nothing_and_say_why() {
         (
             "gain",
             0.0,
-            "'gain' = 0.0 m must be greater than 0 and at most 100.0, or -1 for the scenario's own",
+            "'gain' = 0.0 m must be greater than 0 and at most 100.0, or -1 for the mission's own",
         ),
         ("gain", 101.0, "'gain' = 101.0 m must be"),
         ("weights[2]", -0.5, "'weights[2]' = -0.5 rad/s must be at least 0.0"),

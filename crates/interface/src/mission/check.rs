@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use super::events::{Distribution, FirstTable, Which};
 use super::{
-    At, Axes, Body, Burn, First, Frame, Gravity, Magnitude, Mission, Orbit, Profile, RelativeAxes, UnitsChoice,
-    Vehicle, Vent,
+    At, Axes, Body, Burn, First, Frame, Gravity, Magnitude, Mission, Orbit, Profile, UnitsChoice, Vehicle, Vent,
 };
 use crate::bound::Bound;
 
@@ -20,6 +19,11 @@ pub(super) struct Finding {
 /// Most vents of one kind and epochs of one run: a slip in a period should not fill the memory.
 const MOST_VENTS: u32 = 100_000;
 const MOST_INTERVALS: f64 = 1e8;
+
+/// Years of which the places of Sun and Moon are given.
+const YEARS: std::ops::RangeInclusive<u16> = 1900..=2100;
+/// Times this close are one, s.
+const SAME: f64 = 1e-6;
 
 /// Everything that is wrong with a mission.
 pub(super) fn findings(mission: &Mission) -> Vec<Finding> {
@@ -109,12 +113,48 @@ impl Check {
             );
             self.say("time.grid_s", what);
         }
-        let needs_date = !mission.environment.third_bodies.is_empty() || mission.environment.radiation.is_some();
-        if needs_date && time.epoch_utc.is_none() {
-            self.say(
-                "time",
-                "time.epoch_utc is missing: the places of Sun and Moon need a date, as \"2020-01-01T00:00:00\"",
+        self.epoch(mission);
+        let at_end = [&mission.target, &mission.chaser].map(|v| v.orbit.as_ref().is_some_and(|o| o.at.is_end()));
+        let whole = (time.duration_s / time.grid_s).round() * time.grid_s;
+        if at_end.contains(&true) && (time.duration_s - whole).abs() > SAME {
+            let what = format!(
+                "time.grid_s = {}: orbits with at = \"end\" are taken back from the end of the run, so time.duration_s = {} must be \
+                 a multiple of it",
+                time.grid_s, time.duration_s
             );
+            self.say("time.grid_s", what);
+        }
+    }
+
+    /// The date, where one is given or needed.
+    fn epoch(&mut self, mission: &Mission) {
+        let (environment, body) = (&mission.environment, mission.environment.body);
+        if let Some(text) = &mission.time.epoch_utc {
+            if let Some(wrong) = wrong_with_date(text) {
+                let what = format!(
+                    "time.epoch_utc = {text:?} {wrong}: it must be year, month, day and time of day in universal time, as in \
+                     \"2020-01-01T00:00:00\""
+                );
+                self.say("time.epoch_utc", what);
+            }
+            return;
+        }
+        let turns_as_body = environment.rotation.is_none() && body != Body::Other;
+        let reasons = [
+            (!environment.third_bodies.is_empty(), "the places of Sun and Moon"),
+            (environment.radiation.is_some(), "the place of the Sun"),
+            (
+                matches!(environment.gravity, Gravity::Harmonics(_)) && turns_as_body,
+                "the turn of the body's axes",
+            ),
+            (
+                environment.drag.is_some() && turns_as_body && body != Body::Earth,
+                "the turn of the air",
+            ),
+        ];
+        if let Some((_, reason)) = reasons.into_iter().find(|(needed, _)| *needed) {
+            let what = format!("time.epoch_utc is missing: {reason} needs a date, as \"2020-01-01T00:00:00\"");
+            self.say("time", what);
         }
     }
 
@@ -197,6 +237,18 @@ impl Check {
                 "environment.radiation: the Sun's place is known about the Earth and the Moon only",
             );
         }
+        let mut named = BTreeSet::new();
+        if let Some(twice) = environment.third_bodies.iter().find(|body| !named.insert(*body)) {
+            let what = format!("environment.third_bodies: {twice:?} is named twice");
+            self.say("environment.third_bodies", what);
+        }
+        let harmonics = matches!(environment.gravity, Gravity::Harmonics(_));
+        if harmonics && environment.body == Body::Other && environment.rotation.is_none() {
+            self.say(
+                "environment.gravity",
+                "environment.rotation is missing: nothing is known of how the axes of body = \"other\" turn, as { rate_deg_s = 0.004 }",
+            );
+        }
         let Some(drag) = environment.drag else { return };
         let layer = [drag.density_kg_m3, drag.reference_altitude_m, drag.scale_height_m];
         let given = layer.iter().flatten().count();
@@ -209,7 +261,14 @@ impl Check {
         if cr3bp || (given == 0 && environment.body != Body::Earth) {
             self.say("environment.drag", "environment.drag: only the Earth's air is known; for another body state density_kg_m3, reference_altitude_m, scale_height_m");
         }
-        self.hold_some("environment.drag.density_kg_m3", drag.density_kg_m3, Bound::NonNegative);
+        if given == 0 && environment.rotation.is_some() {
+            self.say(
+                "environment.rotation",
+                "environment.rotation: the Earth's air turns with the Earth; leave it out, or state density_kg_m3, \
+                 reference_altitude_m and scale_height_m of the air",
+            );
+        }
+        self.hold_some("environment.drag.density_kg_m3", drag.density_kg_m3, Bound::Positive);
         self.hold_some("environment.drag.scale_height_m", drag.scale_height_m, Bound::Positive);
     }
 
@@ -238,18 +297,6 @@ impl Check {
                 "chaser",
                 "target and chaser are given at different times: both `at` must be \"start\" or both \"end\"",
             );
-        }
-        let cr3bp = mission.environment.gravity.cr3bp().is_some();
-        for (name, vehicle) in [("target", target), ("chaser", chaser)] {
-            if vehicle
-                .relative
-                .is_some_and(|r| cr3bp && matches!(r.axes, RelativeAxes::Rtn | RelativeAxes::Lvlh))
-            {
-                self.say(
-                    format!("{name}.relative.axes"),
-                    format!("{name}.relative.axes: in cr3bp it must be \"n\" or \"inertial\""),
-                );
-            }
         }
     }
 
@@ -474,6 +521,7 @@ impl Check {
                     self.say(path, what);
                     return None;
                 };
+                self.hold_some(format!("{path}.offset_s"), *offset_s, Bound::NonNegative);
                 let offset = offset_s.unwrap_or(0.0);
                 latest_first(mission, found).map(|t| t + offset)
             }
@@ -491,6 +539,12 @@ impl Check {
         let s = &mission.sensors;
         if !s.see_the_target() {
             self.say("sensors", "no sensor sees the target: give [sensors.lidar], [sensors.camera], [sensors.radio] or [sensors.metrology]");
+        }
+        if s.metrology.is_some() && mission.environment.gravity.cr3bp().is_some() {
+            self.say(
+                "sensors.metrology",
+                "sensors.metrology: it measures in the axes of an orbit about one body, which the three-body problem has not",
+            );
         }
         let angles_alone = s.camera.is_some() && s.lidar.is_none() && s.radio.is_none() && s.metrology.is_none();
         let moves = s.accelerometer.is_some() || mission.burns.iter().any(|b| b.vehicle == Which::Chaser);
@@ -642,6 +696,24 @@ impl Check {
             }
         }
     }
+}
+
+/// What is wrong with a date, if something is.
+fn wrong_with_date(text: &str) -> Option<String> {
+    let date: toml::value::Datetime = match text.parse() {
+        Ok(date) => date,
+        Err(error) => return Some(format!("is no date ({error})")),
+    };
+    let (Some(day), Some(time)) = (date.date, date.time) else {
+        return Some("lacks the day or the time of day".to_owned());
+    };
+    if !matches!(date.offset, None | Some(toml::value::Offset::Z)) {
+        return Some("has an offset".to_owned());
+    }
+    if !YEARS.contains(&day.year) {
+        return Some(format!("is not in the years {} to {}", YEARS.start(), YEARS.end()));
+    }
+    (time.second.is_some_and(|s| s > 59)).then(|| "has a leap second".to_owned())
 }
 
 /// The latest begin of the first vent of a kind that stands above the present one.

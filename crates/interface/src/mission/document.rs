@@ -101,6 +101,34 @@ impl Document {
         Ok(())
     }
 
+    /// Makes every path in the text absolute, so that the text may stand in another folder.
+    ///
+    /// # Errors
+    /// As for [`Document::set`].
+    pub fn make_paths_absolute(&mut self) -> Result<(), MissionError> {
+        for (key, path) in self.files()? {
+            self.set(key, &Value::from(path.display().to_string()).to_string())?;
+        }
+        Ok(())
+    }
+
+    /// Files that the text names: the key of each, and its path from here.
+    ///
+    /// # Errors
+    /// When the text is no TOML.
+    pub fn files(&self) -> Result<Vec<(&'static str, PathBuf)>, MissionError> {
+        let spanned = self.spanned()?;
+        let file = |section: &str| {
+            let gravity = spanned.as_table().get(section)?.get("gravity")?;
+            Some(self.folder.join(gravity.get("file")?.as_str()?))
+        };
+        let keys = [
+            ("environment.gravity.file", file("environment")),
+            ("navigation.gravity.file", file("navigation")),
+        ];
+        Ok(keys.into_iter().filter_map(|(key, path)| Some((key, path?))).collect())
+    }
+
     /// The mission that the text states.
     ///
     /// # Errors

@@ -54,6 +54,14 @@ pub enum MissionError {
         /// Names there are.
         known: String,
     },
+    /// No item of the `scenario` enumeration.
+    #[error("scenario {ordinal} does not exist: it must be one of {known}")]
+    Scenario {
+        /// As given; the first is 1.
+        ordinal: i32,
+        /// Numbers and names there are.
+        known: String,
+    },
     /// The mission cannot be written as TOML.
     #[error("mission {name} cannot be written: {reason}")]
     Write {

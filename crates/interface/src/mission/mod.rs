@@ -5,6 +5,7 @@
 //! filter sees nothing else of the file.
 
 mod check;
+mod choice;
 mod document;
 mod embedded;
 mod environment;
@@ -23,6 +24,7 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use choice::{Choice, PACKED, SHIPPED, guid_with, packed_guid};
 pub use document::Document;
 pub use embedded::{EMBEDDED, Embedded, embedded};
 pub use environment::{
@@ -116,7 +118,10 @@ fn date<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Option<Stri
         Toml(toml::value::Datetime),
     }
     Ok(Some(match Date::deserialize(deserializer)? {
-        Date::Text(text) => text,
+        // As TOML writes it, whatever stands between day and time.
+        Date::Text(text) => text
+            .parse()
+            .map_or(text, |date: toml::value::Datetime| date.to_string()),
         Date::Toml(date) => date.to_string(),
     }))
 }

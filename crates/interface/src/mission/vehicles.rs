@@ -155,7 +155,8 @@ pub enum RelativeAxes {
     /// Axes N.
     #[default]
     N,
-    /// Radial, transverse, normal of the vehicle whose orbit is given, held still: velocities are inertial ones.
+    /// Radial, transverse, normal of the target's orbit (in the three-body problem about the smaller body), held still:
+    /// velocities are inertial ones.
     Rtn,
     /// The same axes, turning with that orbit: velocities are seen in them.
     Lvlh,

@@ -10,7 +10,7 @@ use super::{Law, Sight};
 pub(crate) struct Inertial;
 
 impl Law for Inertial {
-    fn dcm_b_n(&self, sight: &Sight) -> Matrix3<f64> {
-        sight.dcm_n_i.transpose()
+    fn dcm_b_n(&self, sight: &Sight<'_>) -> Matrix3<f64> {
+        sight.dcm_n_i().transpose()
     }
 }

@@ -11,7 +11,8 @@ use super::{Law, Sight};
 pub(crate) struct LineOfSight;
 
 impl Law for LineOfSight {
-    fn dcm_b_n(&self, sight: &Sight) -> Matrix3<f64> {
-        frames::los_body_axes(&sight.r_other, &sight.v_other, &sight.normal)
+    fn dcm_b_n(&self, sight: &Sight<'_>) -> Matrix3<f64> {
+        let (r, v) = sight.orbit();
+        frames::los_body_axes(&sight.r_other, &sight.v_other, &r.cross(&v))
     }
 }

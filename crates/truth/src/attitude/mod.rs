@@ -9,6 +9,7 @@ use interface::mission;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::world::Axes;
 use inertial::Inertial;
 use line_of_sight::LineOfSight;
 use rtn::Rtn;
@@ -16,27 +17,37 @@ use spin::Spin;
 
 /// What a pointing law may look at; axes N, SI.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Sight {
+pub(crate) struct Sight<'a> {
     /// s since the start of the run.
     pub t: f64,
-    /// Position relative to the central body (in the three-body problem the smaller one), m.
-    pub r: Vector3<f64>,
-    /// Inertial velocity relative to it, m/s.
-    pub v: Vector3<f64>,
+    /// How axes N stand.
+    pub axes: &'a Axes,
+    /// Position of the vehicle, m.
+    pub r: &'a Vector3<f64>,
+    /// Velocity, m/s.
+    pub v: &'a Vector3<f64>,
     /// Position of the other vehicle relative to this one, m.
     pub r_other: Vector3<f64>,
-    /// Velocity likewise, as seen in axes N, m/s.
+    /// Velocity likewise, m/s.
     pub v_other: Vector3<f64>,
-    /// Normal of this vehicle's orbit, any length.
-    pub normal: Vector3<f64>,
+}
+
+impl Sight<'_> {
+    /// Position and inertial velocity relative to the body that is orbited, m and m/s.
+    fn orbit(&self) -> (Vector3<f64>, Vector3<f64>) {
+        self.axes.about_body(self.r, self.v)
+    }
+
     /// Maps inertial axes to N.
-    pub dcm_n_i: Matrix3<f64>,
+    fn dcm_n_i(&self) -> Matrix3<f64> {
+        self.axes.dcm_n_i(self.t)
+    }
 }
 
 /// A pointing law.
 pub(crate) trait Law {
     /// Maps N to body axes.
-    fn dcm_b_n(&self, sight: &Sight) -> Matrix3<f64>;
+    fn dcm_b_n(&self, sight: &Sight<'_>) -> Matrix3<f64>;
 }
 
 macro_rules! registry {
@@ -52,7 +63,7 @@ macro_rules! registry {
             }
 
             /// Maps N to body axes.
-            pub(crate) fn dcm_b_n(&self, sight: &Sight) -> Matrix3<f64> {
+            pub(crate) fn dcm_b_n(&self, sight: &Sight<'_>) -> Matrix3<f64> {
                 match self { $(Self::$name(law) => law.dcm_b_n(sight)),* }
             }
         }
@@ -70,21 +81,23 @@ registry! {
 mod tests {
     use super::*;
 
-    fn sight(t: f64) -> Sight {
+    const R: Vector3<f64> = Vector3::new(7e6, 0.0, 0.0);
+    const V: Vector3<f64> = Vector3::new(0.0, 0.0, 7.5e3);
+
+    fn sight(axes: &Axes, t: f64) -> Sight<'_> {
         Sight {
             t,
-            r: Vector3::new(7e6, 0.0, 0.0),
-            v: Vector3::new(0.0, 0.0, 7.5e3),
+            axes,
+            r: &R,
+            v: &V,
             r_other: Vector3::new(0.0, 100.0, 0.0),
             v_other: Vector3::new(0.0, 0.0, 1.0),
-            normal: Vector3::new(0.0, -1.0, 0.0),
-            dcm_n_i: Matrix3::identity(),
         }
     }
 
     #[test]
     fn each_law_points_where_it_says() {
-        let of = |law: mission::Attitude, t: f64| Attitude::of(law).dcm_b_n(&sight(t));
+        let of = |law: mission::Attitude, t: f64| Attitude::of(law).dcm_b_n(&sight(&Axes::Inertial, t));
         let los = of(mission::Attitude::LineOfSight, 0.0);
         assert!(
             (los * Vector3::y() - Vector3::y()).amax() < 1e-14,

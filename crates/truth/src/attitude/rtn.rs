@@ -11,7 +11,8 @@ use super::{Law, Sight};
 pub(crate) struct Rtn;
 
 impl Law for Rtn {
-    fn dcm_b_n(&self, sight: &Sight) -> Matrix3<f64> {
-        frames::rtn(&sight.r, &sight.v)
+    fn dcm_b_n(&self, sight: &Sight<'_>) -> Matrix3<f64> {
+        let (r, v) = sight.orbit();
+        frames::rtn(&r, &v)
     }
 }

@@ -1,6 +1,7 @@
 //! A constant turn about an axis fixed in body and space alike.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use astro::attitude;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::{Law, Sight};
@@ -22,8 +23,7 @@ impl Spin {
 }
 
 impl Law for Spin {
-    fn dcm_b_n(&self, sight: &Sight) -> Matrix3<f64> {
-        let turned = Rotation3::new(self.rate * sight.t).into_inner();
-        turned.transpose() * sight.dcm_n_i.transpose()
+    fn dcm_b_n(&self, sight: &Sight<'_>) -> Matrix3<f64> {
+        attitude::spin(&self.rate, sight.t) * sight.dcm_n_i().transpose()
     }
 }

@@ -1,22 +1,43 @@
 //! Drag.
 
-use astro::atmosphere;
-use interface::mission::Mission;
+use astro::Atmosphere;
+use astro::atmosphere::Layer;
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::{Ambient, Model, Place, Sky};
+use super::{Given, Model, Place, Sky};
 use crate::TruthError;
 
-/// Air.
+/// Air, which turns with the central body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Drag;
+pub(crate) struct Drag {
+    atmosphere: Atmosphere,
+}
 
 impl Model for Drag {
-    fn of(mission: &Mission) -> Result<Option<Self>, TruthError> {
-        Ok(mission.environment.drag.map(|_| Self))
+    fn of(given: &Given<'_>) -> Result<Option<Self>, TruthError> {
+        let Some(drag) = given.mission.environment.drag else {
+            return Ok(None);
+        };
+        let layer = drag
+            .density_kg_m3
+            .zip(drag.reference_altitude_m)
+            .zip(drag.scale_height_m);
+        let atmosphere = match layer {
+            Some(((density, altitude), scale_height)) => Atmosphere::layer(Layer {
+                density,
+                altitude,
+                scale_height,
+                radius: given.gravity.radius(),
+                rate: given.almanac.rate(),
+            })?,
+            None => Atmosphere::Earth,
+        };
+        Ok(Some(Self { atmosphere }))
     }
 
-    fn act(&self, _sky: &Sky, place: &Place<'_>, sum: &mut Ambient) {
-        sum.surface += atmosphere::drag(place.r, place.v, place.surface.cd * place.surface.area_per_mass);
+    fn push(&self, _sky: &Sky, place: &Place<'_>, sum: &mut Vector3<f64>) {
+        let coefficient = place.surface.cd * place.surface.area_per_mass;
+        *sum += self.atmosphere.drag(place.r, place.v, coefficient);
     }
 }

@@ -1,7 +1,8 @@
-//! What surrounds the vehicles and pulls or pushes them: one file for each model and one line in the registry.
+//! What surrounds the vehicles and pulls or pushes them: gravity, and beside it one file for each model and one line in the
+//! registry.
 //!
-//! A model sees the [`Sky`] of an instant, in which what several models ask for (the turn of the central body, the places of
-//! Sun and Moon) is computed once.
+//! What depends on time alone (the turn of the central body, the places of Sun and Moon) is in the [`Sky`] of an instant, which
+//! is computed once for both vehicles.
 
 mod drag;
 mod gravity;
@@ -13,12 +14,14 @@ use interface::mission::{self, Mission};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::{TruthError, Vehicles};
+use crate::TruthError;
 use drag::Drag;
 use gravity::Gravity;
 use radiation::Radiation;
-use sky::{Almanac, Sky};
+use sky::Almanac;
 use third_bodies::ThirdBodies;
+
+pub(crate) use sky::Sky;
 
 /// What air and light meet of a vehicle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -51,126 +54,96 @@ pub(crate) struct Place<'a> {
     pub surface: &'a Surface,
 }
 
-/// Accelerations of a vehicle by its surroundings, axes N, m/s2.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Ambient {
-    /// By fields that pull on every part alike; an accelerometer does not feel them.
-    pub gravity: Vector3<f64>,
-    /// By air and light on the surface; an accelerometer feels it.
-    pub surface: Vector3<f64>,
-}
-
-impl Ambient {
-    /// Both together.
-    pub(crate) fn sum(&self) -> Vector3<f64> {
-        self.gravity + self.surface
-    }
-}
-
-/// Accelerations of both vehicles by their surroundings.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Surroundings {
-    pub target: Ambient,
-    pub chaser: Ambient,
+/// From what a model is made.
+pub(crate) struct Given<'a> {
+    mission: &'a Mission,
+    gravity: &'a Gravity,
+    almanac: &'a Almanac,
 }
 
 /// A model of something in the surroundings.
 pub(crate) trait Model: Sized {
     /// The model that the mission asks for, if it asks for one.
-    fn of(mission: &Mission) -> Result<Option<Self>, TruthError>;
+    ///
+    /// # Errors
+    /// When its numbers make no sense.
+    fn of(given: &Given<'_>) -> Result<Option<Self>, TruthError>;
 
-    /// What it needs to know of the sky.
-    fn needs(&self) -> Needs {
-        Needs::default()
-    }
+    /// Adds its acceleration, axes N, m/s2, if it is a field that pulls on every part alike; an accelerometer does not feel it.
+    fn pull(&self, _sky: &Sky, _place: &Place<'_>, _sum: &mut Vector3<f64>) {}
 
-    /// Adds what it does to a vehicle.
-    fn act(&self, sky: &Sky, place: &Place<'_>, sum: &mut Ambient);
-}
-
-/// Which parts of the sky a model asks for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub(crate) struct Needs {
-    /// The turn of body-fixed axes.
-    pub turn: bool,
-    /// The places of other bodies.
-    pub bodies: bool,
+    /// Adds its acceleration, axes N, m/s2, if it meets the surface; an accelerometer feels it.
+    fn push(&self, _sky: &Sky, _place: &Place<'_>, _sum: &mut Vector3<f64>) {}
 }
 
 macro_rules! registry {
-    ($($name:ident),* $(,)?) => {
+    ($($name:ident: $model:ty),* $(,)?) => {
+        /// Everything that surrounds the vehicles of a mission.
         #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-        #[allow(clippy::large_enum_variant)]
-        enum AnyModel { $($name($name)),* }
+        pub(crate) struct Environment {
+            almanac: Almanac,
+            gravity: Gravity,
+            $($name: Option<$model>,)*
+        }
 
-        impl AnyModel {
-            /// The models that the mission asks for, in the order of the registry, in which their effects are added.
-            fn all(mission: &Mission) -> Result<Vec<Self>, TruthError> {
-                let mut models = Vec::new();
-                $(models.extend($name::of(mission)?.map(Self::$name));)*
-                Ok(models)
+        impl Environment {
+            /// The environment of a mission.
+            ///
+            /// # Errors
+            /// When a field of gravity cannot be read or a date makes no sense.
+            pub(crate) fn of(mission: &Mission) -> Result<Self, TruthError> {
+                let (almanac, gravity) = (Almanac::of(mission)?, Gravity::of(mission)?);
+                let given = Given { mission, gravity: &gravity, almanac: &almanac };
+                Ok(Self {
+                    $($name: <$model>::of(&given)?,)*
+                    almanac,
+                    gravity,
+                })
             }
 
-            fn needs(&self) -> Needs {
-                match self { $(Self::$name(model) => model.needs()),* }
+            /// What pulls on every part of a vehicle alike, axes N, m/s2.
+            #[inline]
+            pub(crate) fn pull(&self, sky: &Sky, place: &Place<'_>) -> Vector3<f64> {
+                let mut sum = self.gravity.acceleration(sky, place);
+                $(if let Some(model) = &self.$name {
+                    model.pull(sky, place, &mut sum);
+                })*
+                sum
             }
 
-            fn act(&self, sky: &Sky, place: &Place<'_>, sum: &mut Ambient) {
-                match self { $(Self::$name(model) => model.act(sky, place, sum)),* }
+            /// What meets the surface of a vehicle, axes N, m/s2; its accelerometer feels it.
+            #[inline]
+            pub(crate) fn push(&self, sky: &Sky, place: &Place<'_>) -> Vector3<f64> {
+                let mut sum = Vector3::zeros();
+                $(if let Some(model) = &self.$name {
+                    model.push(sky, place, &mut sum);
+                })*
+                sum
             }
         }
     };
 }
 
-registry!(Gravity, ThirdBodies, Radiation, Drag);
-
-/// Everything that surrounds the vehicles of a mission.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Environment {
-    models: Vec<AnyModel>,
-    needs: Needs,
-    almanac: Almanac,
+registry! {
+    third_bodies: ThirdBodies,
+    radiation: Radiation,
+    drag: Drag,
 }
 
 impl Environment {
-    /// The environment of a mission.
-    ///
-    /// # Errors
-    /// When a field of gravity cannot be read or a date makes no sense.
-    pub(crate) fn of(mission: &Mission) -> Result<Self, TruthError> {
-        let models = AnyModel::all(mission)?;
-        let needs = models.iter().map(AnyModel::needs).fold(Needs::default(), |a, b| Needs {
-            turn: a.turn || b.turn,
-            bodies: a.bodies || b.bodies,
-        });
-        Ok(Self {
-            models,
-            needs,
-            almanac: Almanac::of(mission)?,
-        })
-    }
-
     /// Gravitational parameter of the central body, m3/s2; `None` in the three-body problem.
     pub(crate) fn mu(&self) -> Option<f64> {
-        self.models.iter().find_map(|model| match model {
-            AnyModel::Gravity(gravity) => gravity.mu(),
-            _ => None,
-        })
+        self.gravity.mu()
     }
 
-    /// What it does to both vehicles at `t`, s since the start of the run.
-    pub(crate) fn act(&self, t: f64, state: &Vehicles, target: &Surface, chaser: &Surface) -> Surroundings {
-        let sky = self.almanac.at(t, self.needs);
-        let on = |r, v, surface| {
-            let mut sum = Ambient::default();
-            for model in &self.models {
-                model.act(&sky, &Place { r, v, surface }, &mut sum);
-            }
-            sum
-        };
-        Surroundings {
-            target: on(&state.r_t, &state.v_t, target),
-            chaser: on(&state.r_c, &state.v_c, chaser),
-        }
+    /// What it looks like at `t`, s since the start of the run.
+    pub(crate) fn sky(&self, t: f64) -> Sky {
+        self.almanac.at(t)
+    }
+
+    /// Acceleration of a vehicle by all of it, axes N, m/s2.
+    #[inline]
+    pub(crate) fn acceleration(&self, sky: &Sky, place: &Place<'_>) -> Vector3<f64> {
+        self.pull(sky, place) + self.push(sky, place)
     }
 }

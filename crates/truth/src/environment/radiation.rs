@@ -1,41 +1,36 @@
 //! Radiation pressure of the Sun.
 
 use astro::radiation;
-use interface::mission::{Mission, Shadow};
+use interface::mission::Shadow;
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::{Ambient, Model, Needs, Place, Sky};
+use super::{Given, Model, Place, Sky};
 use crate::TruthError;
 
 /// Sunlight.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Radiation {
-    /// Radius of the shadow's cylinder, m; zero: no shadow.
+    /// Place of the Sun in the sky.
+    sun: usize,
+    /// Radius of the shadow's cylinder, m; below zero: no shadow.
     shadow_radius: f64,
 }
 
 impl Model for Radiation {
-    fn of(mission: &Mission) -> Result<Option<Self>, TruthError> {
-        let Some(radiation) = mission.environment.radiation else {
-            return Ok(None);
-        };
-        Ok(Some(Self {
+    fn of(given: &Given<'_>) -> Result<Option<Self>, TruthError> {
+        let asked = given.mission.environment.radiation.zip(given.almanac.sun());
+        Ok(asked.map(|(radiation, sun)| Self {
+            sun,
             shadow_radius: match radiation.shadow {
-                Shadow::None => 0.0,
-                Shadow::Cylindrical => super::gravity::radius(mission)?,
+                Shadow::None => -1.0,
+                Shadow::Cylindrical => given.gravity.radius(),
             },
         }))
     }
 
-    fn needs(&self) -> Needs {
-        Needs {
-            bodies: true,
-            ..Needs::default()
-        }
-    }
-
-    fn act(&self, sky: &Sky, place: &Place<'_>, sum: &mut Ambient) {
+    fn push(&self, sky: &Sky, place: &Place<'_>, sum: &mut Vector3<f64>) {
         let coefficient = place.surface.cr * place.surface.area_per_mass;
-        sum.surface += radiation::acceleration(place.r, &sky.sun, self.shadow_radius, coefficient);
+        *sum += radiation::acceleration(place.r, &sky.places[self.sun], self.shadow_radius, coefficient);
     }
 }

@@ -1,51 +1,155 @@
-//! Where Sun and Moon are and how the central body has turned.
+//! What depends on time alone: how the central body has turned and where other bodies are.
 
-use astro::epoch;
-use interface::mission::Mission;
+use astro::{AstroError, CentralBody, ThirdBody, UniformRotation, attitude, earth_rotation, epoch};
+use interface::mission::{self, Mission};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::Needs;
 use crate::TruthError;
 
-/// What the sky of a mission follows from.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+/// Most bodies beside the central one.
+pub(super) const MOST_BODIES: usize = 2;
+
+/// From what the sky of a mission follows.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(try_from = "Recipe", into = "Recipe")]
 pub(crate) struct Almanac {
-    /// Julian date of the start.
-    epoch_jd: f64,
+    recipe: Recipe,
+    /// The central body, where its place among the others or its turn matters.
+    centre: Option<CentralBody>,
+    /// The bodies whose places are asked for.
+    bodies: Vec<ThirdBody>,
 }
 
-/// The sky at one instant; what no model needs is zero.
+/// As it is saved.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Recipe {
+    body: mission::Body,
+    /// Julian date of the start.
+    epoch_jd: Option<f64>,
+    /// Turn of body-fixed axes, where the mission states one.
+    rotation: Option<UniformRotation>,
+    /// Whether a model asks for the turn.
+    turn: bool,
+    /// Names of the bodies whose places are asked for.
+    bodies: Vec<String>,
+}
+
+/// The sky at one instant.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Sky {
-    /// Maps N to body-fixed axes of the central body.
+    /// s since the start of the run.
+    pub t: f64,
+    /// Maps N to body-fixed axes of the central body; zero where no model asks for it.
     pub dcm_f_n: Matrix3<f64>,
-    /// The Sun from the central body, N, m.
-    pub sun: Vector3<f64>,
-    /// The Moon from the central body, N, m.
-    pub moon: Vector3<f64>,
+    /// Bodies from the central one, N, m, in the order of [`Almanac::bodies`].
+    pub places: [Vector3<f64>; MOST_BODIES],
 }
 
 impl Almanac {
-    pub(super) fn of(_mission: &Mission) -> Result<Self, TruthError> {
-        Ok(Self { epoch_jd: 2_458_849.5 })
+    /// The almanac that the models of a mission ask for.
+    ///
+    /// # Errors
+    /// When the date makes no sense, or a body is not known or not known about this centre.
+    pub(super) fn of(mission: &Mission) -> Result<Self, TruthError> {
+        let environment = &mission.environment;
+        let mut bodies = environment.third_bodies.clone();
+        if environment.radiation.is_some() && !bodies.iter().any(|name| name == SUN) {
+            bodies.push(SUN.to_owned());
+        }
+        let date = mission.time.epoch_utc.as_deref();
+        let rotation = environment.rotation.map(|r| UniformRotation {
+            rate: r.rate_deg_s.to_radians(),
+            angle: r.angle_deg.to_radians(),
+        });
+        let recipe = Recipe {
+            body: environment.body,
+            epoch_jd: date.map(epoch::julian_date).transpose()?,
+            rotation,
+            turn: matches!(environment.gravity, mission::Gravity::Harmonics(_)),
+            bodies,
+        };
+        Ok(recipe.try_into()?)
+    }
+
+    /// The bodies whose places are in the sky, in their order.
+    pub(super) fn bodies(&self) -> &[ThirdBody] {
+        &self.bodies
+    }
+
+    /// Place of the Sun among them.
+    pub(super) fn sun(&self) -> Option<usize> {
+        self.bodies.iter().position(|body| body.name() == SUN)
+    }
+
+    /// Rate at which the central body turns about z, rad/s; 0 where nothing is known of it.
+    pub(super) fn rate(&self) -> f64 {
+        /// s; the Moon's pole moves by a ten-thousandth of its turn.
+        const SPAN: f64 = 1000.0;
+        match (self.recipe.rotation, self.recipe.body, &self.centre) {
+            (Some(rotation), ..) => rotation.rate,
+            (None, mission::Body::Earth, _) => earth_rotation::RATE,
+            (None, _, Some(centre)) => attitude::turn(&centre.dcm_f_n(SPAN), &centre.dcm_f_n(0.0)).norm() / SPAN,
+            (None, _, None) => 0.0,
+        }
     }
 
     /// * `t`: s since the start of the run.
-    pub(super) fn at(&self, t: f64, needs: Needs) -> Sky {
-        let days = epoch::days_since_j2000(self.epoch_jd, t);
-        let (sun, moon) = if needs.bodies {
-            (astro::sun_moon::sun(days), astro::sun_moon::moon(days))
-        } else {
-            (Vector3::zeros(), Vector3::zeros())
+    pub(super) fn at(&self, t: f64) -> Sky {
+        let mut sky = Sky {
+            t,
+            dcm_f_n: Matrix3::zeros(),
+            places: [Vector3::zeros(); MOST_BODIES],
         };
-        Sky {
-            dcm_f_n: if needs.turn {
-                astro::earth_rotation::dcm_f_n(days)
-            } else {
-                Matrix3::zeros()
-            },
-            sun,
-            moon,
+        match (self.recipe.turn, &self.recipe.rotation, &self.centre) {
+            (true, Some(rotation), _) => sky.dcm_f_n = rotation.dcm_f_n(t),
+            (true, None, Some(centre)) => sky.dcm_f_n = centre.dcm_f_n(t),
+            _ => (),
         }
+        if let Some(centre) = &self.centre {
+            for (place, body) in sky.places.iter_mut().zip(&self.bodies) {
+                *place = centre.position(body, t);
+            }
+        }
+        sky
+    }
+}
+
+const SUN: &str = "sun";
+
+impl TryFrom<Recipe> for Almanac {
+    type Error = AstroError;
+
+    fn try_from(recipe: Recipe) -> Result<Self, AstroError> {
+        let name = match recipe.body {
+            mission::Body::Earth => Some("earth"),
+            mission::Body::Moon => Some("moon"),
+            mission::Body::Other => None,
+        };
+        let centre = name
+            .zip(recipe.epoch_jd)
+            .map(|(name, jd)| CentralBody::new(name, jd))
+            .transpose()?;
+        let bodies = centre
+            .iter()
+            .flat_map(|centre| recipe.bodies.iter().map(|name| centre.third_body(name)));
+        Ok(Self {
+            bodies: bodies.collect::<Result<_, _>>()?,
+            centre,
+            recipe,
+        })
+    }
+}
+
+impl From<Almanac> for Recipe {
+    fn from(almanac: Almanac) -> Self {
+        almanac.recipe
+    }
+}
+
+impl PartialEq for Almanac {
+    /// Equal recipes make equal almanacs.
+    fn eq(&self, other: &Self) -> bool {
+        self.recipe == other.recipe
     }
 }

@@ -1,42 +1,33 @@
 //! Bodies that pull beside the central one.
 
-use astro::sun_moon;
-use interface::mission::Mission;
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::{Ambient, Model, Needs, Place, Sky};
+use super::{Given, Model, Place, Sky};
 use crate::TruthError;
+use astro::sun_moon;
 
 /// Which bodies pull.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ThirdBodies {
-    sun: bool,
-    moon: bool,
+    /// Place in the sky and gravitational parameter, m3/s2.
+    pulls: Vec<(usize, f64)>,
 }
 
 impl Model for ThirdBodies {
-    fn of(mission: &Mission) -> Result<Option<Self>, TruthError> {
-        let asked = |name: &str| mission.environment.third_bodies.iter().any(|b| b == name);
-        let bodies = Self {
-            sun: asked("sun"),
-            moon: asked("moon"),
-        };
-        Ok((bodies.sun || bodies.moon).then_some(bodies))
+    fn of(given: &Given<'_>) -> Result<Option<Self>, TruthError> {
+        let asked = &given.mission.environment.third_bodies;
+        let pulls = given.almanac.bodies().iter().enumerate();
+        let pulls: Vec<_> = pulls
+            .filter(|(_, body)| asked.iter().any(|name| name == body.name()))
+            .map(|(place, body)| (place, body.mu()))
+            .collect();
+        Ok((!pulls.is_empty()).then_some(Self { pulls }))
     }
 
-    fn needs(&self) -> Needs {
-        Needs {
-            bodies: true,
-            ..Needs::default()
-        }
-    }
-
-    fn act(&self, sky: &Sky, place: &Place<'_>, sum: &mut Ambient) {
-        if self.sun {
-            sum.gravity += sun_moon::third_body(sun_moon::SUN_MU, &sky.sun, place.r);
-        }
-        if self.moon {
-            sum.gravity += sun_moon::third_body(sun_moon::MOON_MU, &sky.moon, place.r);
+    fn pull(&self, sky: &Sky, place: &Place<'_>, sum: &mut Vector3<f64>) {
+        for &(body, mu) in &self.pulls {
+            *sum += sun_moon::third_body(mu, &sky.places[body], place.r);
         }
     }
 }

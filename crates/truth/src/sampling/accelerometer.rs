@@ -22,8 +22,8 @@ pub struct AccelerometerSample {
 }
 
 impl AccelerometerSample {
-    pub(super) fn not_due(self) -> Self {
-        Self { valid: false, ..self }
+    pub(super) fn not_due(&mut self) {
+        self.valid = false;
     }
 }
 
@@ -48,19 +48,15 @@ impl Accelerometer {
         self.output
     }
 
-    pub(super) fn sample(&mut self, _last: &AccelerometerSample, scene: &Scene) -> AccelerometerSample {
+    pub(super) fn sample(&mut self, seen: &mut AccelerometerSample, scene: &Scene) {
         let noise = normal3(&mut self.noise) * self.sigma;
-        let (mean, alpha_c_bc) = match scene.mean_force_c_bc {
+        seen.valid = true;
+        (seen.mean, seen.alpha_c_bc) = match scene.mean_force_c_bc {
             Some(force) => (true, force + scene.b_c_bc + noise),
             None => (
                 false,
                 accelerometer::reading(&scene.force_c_n, &scene.dcm_bc_n, &scene.b_c_bc, &noise),
             ),
         };
-        AccelerometerSample {
-            valid: true,
-            mean,
-            alpha_c_bc,
-        }
     }
 }

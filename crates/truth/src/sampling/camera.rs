@@ -8,7 +8,7 @@ use sensors::{lidar, normal3};
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
-use super::faults::{Faults, in_view};
+use super::faults::{Faults, View};
 use crate::overrides::Run;
 
 /// What the camera says of one sample.
@@ -25,12 +25,9 @@ pub struct CameraSample {
 }
 
 impl CameraSample {
-    pub(super) fn not_due(self) -> Self {
-        Self {
-            due: false,
-            valid: false,
-            ..self
-        }
+    pub(super) fn not_due(&mut self) {
+        self.due = false;
+        self.valid = false;
     }
 }
 
@@ -38,7 +35,7 @@ impl CameraSample {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Camera {
     sigma: f64,
-    half_view: f64,
+    view: View,
     noise: Generator,
     faults: Faults,
 }
@@ -47,30 +44,24 @@ impl Camera {
     pub(super) fn new(sensor: &mission::Camera, run: &Run) -> Self {
         Self {
             sigma: sensor.sigma_angle_deg.to_radians(),
-            half_view: 0.5 * sensor.field_of_view_deg.to_radians(),
+            view: View::of_width(sensor.field_of_view_deg.to_radians()),
             noise: stream(run.study_seed, run.run, Source::Camera),
             faults: Faults::new(sensor.faults(), run, "camera", false),
         }
     }
 
-    pub(super) fn sample(&mut self, last: &CameraSample, scene: &Scene) -> CameraSample {
+    pub(super) fn sample(&mut self, seen: &mut CameraSample, scene: &Scene) {
         let unit = normal3(&mut self.noise);
         let rho_l = frames::lidar_from_body() * (scene.dcm_bc_n * scene.r_tc_n);
         let fault = self.faults.draw(rho_l.norm());
-        if fault.dropped || !in_view(&rho_l, self.half_view) {
-            return CameraSample {
-                due: true,
-                valid: false,
-                ..*last
-            };
+        seen.due = true;
+        seen.valid = !fault.dropped && self.view.holds(&rho_l);
+        if !seen.valid {
+            return;
         }
-        let seen = lidar::measure(&rho_l);
+        let truth = lidar::measure(&rho_l);
         let noise = unit * (self.sigma * fault.scale);
-        CameraSample {
-            due: true,
-            valid: true,
-            azimuth: seen[1] + noise[1],
-            elevation: seen[2] + noise[2],
-        }
+        seen.azimuth = truth[1] + noise[1];
+        seen.elevation = truth[2] + noise[2];
     }
 }

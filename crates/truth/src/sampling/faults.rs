@@ -62,13 +62,28 @@ impl Faults {
     }
 }
 
-/// Whether a target lies in a square field of view in front of a sensor.
-///
-/// * `rho_l`: target relative to the sensor, axes L (boresight z), m.
-/// * `half`: half of the full width, rad.
-pub(super) fn in_view(rho_l: &Vector3<f64>, half: f64) -> bool {
-    let reach = rho_l.z * half.tan();
-    rho_l.z > 0.0 && rho_l.x.abs() <= reach && rho_l.y.abs() <= reach
+/// A square field of view in front of a sensor.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct View {
+    /// Tangent of half of its width.
+    reach: f64,
+}
+
+impl View {
+    /// * `width`: full, rad, below pi.
+    pub(super) fn of_width(width: f64) -> Self {
+        Self {
+            reach: (0.5 * width).tan(),
+        }
+    }
+
+    /// Whether a target lies in it.
+    ///
+    /// * `rho_l`: target relative to the sensor, axes L (boresight z), m.
+    pub(super) fn holds(&self, rho_l: &Vector3<f64>) -> bool {
+        let reach = rho_l.z * self.reach;
+        rho_l.z > 0.0 && rho_l.x.abs() <= reach && rho_l.y.abs() <= reach
+    }
 }
 
 #[cfg(test)]
@@ -77,13 +92,14 @@ mod tests {
 
     #[test]
     fn view_is_a_square_in_front() {
+        let view = View::of_width(5.0_f64.to_radians());
         let at = |x_deg: f64, y_deg: f64, z: f64| {
             let place = Vector3::new(x_deg.to_radians().tan() * z, y_deg.to_radians().tan() * z, z);
-            in_view(&place, 2.5_f64.to_radians())
+            view.holds(&place)
         };
         assert!(at(0.0, 0.0, 10.0) && at(2.49, -2.49, 10.0));
         assert!(!at(2.51, 0.0, 10.0) && !at(0.0, -2.51, 10.0));
         assert!(!at(0.0, 0.0, -10.0), "behind the sensor");
-        assert!(!in_view(&Vector3::zeros(), 1.0) && !in_view(&Vector3::repeat(f64::NAN), 1.0));
+        assert!(!view.holds(&Vector3::zeros()) && !view.holds(&Vector3::repeat(f64::NAN)));
     }
 }

@@ -9,7 +9,7 @@ use sensors::{lidar, normal3};
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
-use super::faults::{Faults, in_view};
+use super::faults::{Faults, View};
 use crate::overrides::Run;
 
 /// What the LiDAR says of one sample.
@@ -28,12 +28,9 @@ pub struct LidarSample {
 }
 
 impl LidarSample {
-    pub(super) fn not_due(self) -> Self {
-        Self {
-            due: false,
-            valid: false,
-            ..self
-        }
+    pub(super) fn not_due(&mut self) {
+        self.due = false;
+        self.valid = false;
     }
 }
 
@@ -41,7 +38,7 @@ impl LidarSample {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Lidar {
     sigma: Vector3<f64>,
-    half_view: f64,
+    view: View,
     noise: Generator,
     faults: Faults,
 }
@@ -51,30 +48,22 @@ impl Lidar {
         let angle = sensor.sigma_angle_deg.to_radians();
         Self {
             sigma: Vector3::new(sensor.sigma_range_m, angle, angle),
-            half_view: 0.5 * sensor.field_of_view_deg.to_radians(),
+            view: View::of_width(sensor.field_of_view_deg.to_radians()),
             noise: stream(run.study_seed, run.run, Source::Lidar),
             faults: Faults::new(sensor.faults(), run, "lidar", true),
         }
     }
 
-    pub(super) fn sample(&mut self, last: &LidarSample, scene: &Scene) -> LidarSample {
+    pub(super) fn sample(&mut self, seen: &mut LidarSample, scene: &Scene) {
         let unit = normal3(&mut self.noise);
         let rho_l = frames::lidar_from_body() * (scene.dcm_bc_n * scene.r_tc_n);
         let fault = self.faults.draw(rho_l.norm());
-        if fault.dropped || !in_view(&rho_l, self.half_view) {
-            return LidarSample {
-                due: true,
-                valid: false,
-                ..*last
-            };
+        seen.due = true;
+        seen.valid = !fault.dropped && self.view.holds(&rho_l);
+        if !seen.valid {
+            return;
         }
         let z = lidar::measure(&rho_l) + unit.component_mul(&self.sigma) * fault.scale;
-        LidarSample {
-            due: true,
-            valid: true,
-            range: z[0],
-            azimuth: z[1],
-            elevation: z[2],
-        }
+        (seen.range, seen.azimuth, seen.elevation) = (z[0], z[1], z[2]);
     }
 }

@@ -1,6 +1,6 @@
 //! Relative metrology.
 
-use interface::mission;
+use interface::mission::{self, Frame};
 use nalgebra::{Vector3, Vector6};
 use numerics::Generator;
 use numerics::streams::{Source, stream};
@@ -25,12 +25,9 @@ pub struct MetrologySample {
 }
 
 impl MetrologySample {
-    pub(super) fn not_due(self) -> Self {
-        Self {
-            due: false,
-            valid: false,
-            ..self
-        }
+    pub(super) fn not_due(&mut self) {
+        self.due = false;
+        self.valid = false;
     }
 }
 
@@ -47,26 +44,25 @@ impl Metrology {
         Self {
             sigma: metrology::deviations(sensor.sigma_position_m, sensor.sigma_velocity_m_s),
             noise: stream(run.study_seed, run.run, Source::Metrology),
-            faults: Faults::new(sensor.faults(), run, "metrology", run.mission.sensors.lidar.is_none()),
+            faults: Faults::new(
+                sensor.faults(),
+                run,
+                "metrology",
+                run.mission.navigation.frame == Frame::Lvlh,
+            ),
         }
     }
 
-    pub(super) fn sample(&mut self, last: &MetrologySample, scene: &Scene) -> MetrologySample {
+    pub(super) fn sample(&mut self, seen: &mut MetrologySample, scene: &Scene) {
         let unit = metrology::measure(&normal3(&mut self.noise), &normal3(&mut self.noise));
         let fault = self.faults.draw(scene.r_tc_n.norm());
-        let (Some((seen, _)), false) = (scene.metrology, fault.dropped) else {
-            return MetrologySample {
-                due: true,
-                valid: false,
-                ..*last
-            };
+        seen.due = true;
+        seen.valid = !fault.dropped;
+        let (Some((truth, _)), false) = (scene.metrology, fault.dropped) else {
+            return;
         };
-        let z = seen + unit.component_mul(&self.sigma) * fault.scale;
-        MetrologySample {
-            due: true,
-            valid: true,
-            rho_lvlh: z.fixed_rows::<3>(0).into_owned(),
-            rho_dot_lvlh: z.fixed_rows::<3>(3).into_owned(),
-        }
+        let z = truth + unit.component_mul(&self.sigma) * fault.scale;
+        seen.rho_lvlh = z.fixed_rows::<3>(0).into_owned();
+        seen.rho_dot_lvlh = z.fixed_rows::<3>(3).into_owned();
     }
 }

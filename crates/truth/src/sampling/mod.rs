@@ -53,8 +53,8 @@ pub struct SensorSample {
 pub(crate) struct Scene {
     /// Target relative to chaser, N, m.
     pub r_tc_n: Vector3<f64>,
-    /// Its inertial rate of change, N, m/s.
-    pub v_tc_i_n: Vector3<f64>,
+    /// Its rate of change as seen in N, m/s.
+    pub v_tc_n: Vector3<f64>,
     /// The relative state as metrology has it, and the target's orbit, where it is on board.
     pub metrology: Option<(nalgebra::Vector6<f64>, TargetOrbit)>,
     /// Acceleration of the chaser beside gravity just after the epoch, N, m/s2.
@@ -118,21 +118,19 @@ macro_rules! sensors {
                 epochs.into_iter().flatten().fold(f64::INFINITY, f64::min)
             }
 
-            /// The sample after `last`, taken at `time`, which is `elapsed` seconds after the start of the run.
-            pub(crate) fn sample(&mut self, last: &SensorSample, time: f64, elapsed: f64, scene: &Scene) -> SensorSample {
-                SensorSample {
-                    count: last.count + 1,
-                    time,
-                    $($name: match &mut self.$name {
-                        Some((clock, sensor)) if clock.due(elapsed) => {
-                            clock.taken += 1;
-                            sensor.sample(&last.$name, scene)
-                        }
-                        _ => last.$name.not_due(),
-                    },)*
-                    target_orbit: scene.metrology.map(|(_, orbit)| orbit),
-                    dcm_bc_n: scene.dcm_bc_n,
-                }
+            /// Takes the sample after `sample`, at `time`, which is `elapsed` seconds after the start of the run.
+            pub(crate) fn sample(&mut self, sample: &mut SensorSample, time: f64, elapsed: f64, scene: &Scene) {
+                sample.count += 1;
+                sample.time = time;
+                $(match &mut self.$name {
+                    Some((clock, sensor)) if clock.due(elapsed) => {
+                        clock.taken += 1;
+                        sensor.sample(&mut sample.$name, scene);
+                    }
+                    _ => sample.$name.not_due(),
+                })*
+                sample.target_orbit = scene.metrology.map(|(_, orbit)| orbit);
+                sample.dcm_bc_n = scene.dcm_bc_n;
             }
         }
 
@@ -180,5 +178,109 @@ impl Sensors {
     /// Whether metrology is on board.
     pub(crate) fn have_metrology(&self) -> bool {
         self.metrology.is_some()
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::float_cmp)]
+mod tests {
+    use super::*;
+    use crate::Params;
+
+    fn scene(seen_from_body: [f64; 3]) -> Scene {
+        Scene {
+            r_tc_n: seen_from_body.into(),
+            v_tc_n: Vector3::zeros(),
+            metrology: None,
+            force_c_n: Vector3::zeros(),
+            mean_force_c_bc: None,
+            dcm_bc_n: Matrix3::identity(),
+            b_c_bc: Vector3::zeros(),
+        }
+    }
+
+    /// Samples of noise-free sensors of these places, one a second.
+    fn seen(extra: &str, places: &[[f64; 3]]) -> Vec<SensorSample> {
+        let mut params = Params::default();
+        for name in ["lidar.sigma_range", "lidar.sigma_angle"] {
+            params.set(name, 0.0);
+        }
+        let mut run = params.run().unwrap();
+        let text = interface::mission::embedded("leo_venting").unwrap().text;
+        let text = text.replace("[initial_error]", &format!("{extra}\n[initial_error]"));
+        let sensors = interface::mission::Mission::parse("m.toml", &text).unwrap().sensors;
+        (run.mission.sensors.camera, run.mission.sensors.radio) = (sensors.camera, sensors.radio);
+        let mut sensors = Sensors::new(&run);
+        let mut sample = SensorSample::before_the_first(&scene(places[0]));
+        let mut all = Vec::new();
+        for (k, place) in (1..).zip(places) {
+            let t = f64::from(k);
+            sensors.sample(&mut sample, t, t, &scene(*place));
+            all.push(sample);
+        }
+        all
+    }
+
+    #[test]
+    fn target_out_of_view_gives_no_measurement_but_a_sample() {
+        // The boresight is body y; 1 in 20 is 2.9 degrees.
+        let [seen, lost] = seen("", &[[0.0, 20.0, 0.0], [1.0, 20.0, 0.0]])[..] else {
+            panic!("two samples")
+        };
+        let first = LidarSample {
+            due: true,
+            valid: true,
+            range: 20.0,
+            azimuth: 0.0,
+            elevation: 0.0,
+        };
+        assert_eq!(seen.lidar, first);
+        assert_eq!(lost.lidar, LidarSample { valid: false, ..first });
+        assert_eq!((lost.count, lost.time), (2, 2.0));
+        assert!(
+            lost.accelerometer.alpha_c_bc != seen.accelerometer.alpha_c_bc,
+            "the accelerometer goes on"
+        );
+    }
+
+    #[test]
+    fn each_sensor_has_its_own_view_and_reach() {
+        let sensors = "[sensors.camera]\nsigma_angle_deg = 0.0\nfield_of_view_deg = 20.0\nmax_range_m = 50.0\n[sensors.radio]\nsigma_range_m = 0.0\nsigma_range_rate_m_s = 0.0\nmax_range_m = 90.0";
+        let seen = seen(
+            sensors,
+            &[
+                [0.0, 20.0, 0.0],
+                [2.0, 20.0, 0.0],
+                [0.0, 60.0, 0.0],
+                [0.0, -60.0, 0.0],
+                [0.0, 100.0, 0.0],
+            ],
+        );
+        let valid: Vec<_> = seen
+            .iter()
+            .map(|s| (s.lidar.valid, s.camera.valid, s.radio.valid))
+            .collect();
+        // Ahead; 5.7 deg off; out of the camera's reach; behind; out of the radio's.
+        let expected = [
+            (true, true, true),
+            (false, true, true),
+            (true, false, true),
+            (false, false, true),
+            (true, false, false),
+        ];
+        assert_eq!(valid, expected);
+        assert!(
+            seen.iter()
+                .all(|s| s.lidar.due && s.camera.due && s.radio.due && !s.metrology.due)
+        );
+        // 2 m along body x are 2 m along LiDAR y: elevation.
+        assert!((seen[1].camera.elevation - 0.1_f64.atan()).abs() < 1e-15 && seen[1].camera.azimuth == 0.0);
+        assert_eq!(
+            seen[3].camera,
+            CameraSample {
+                valid: false,
+                ..seen[1].camera
+            }
+        );
     }
 }

@@ -24,12 +24,9 @@ pub struct RadioSample {
 }
 
 impl RadioSample {
-    pub(super) fn not_due(self) -> Self {
-        Self {
-            due: false,
-            valid: false,
-            ..self
-        }
+    pub(super) fn not_due(&mut self) {
+        self.due = false;
+        self.valid = false;
     }
 }
 
@@ -52,24 +49,18 @@ impl Radio {
         }
     }
 
-    pub(super) fn sample(&mut self, last: &RadioSample, scene: &Scene) -> RadioSample {
+    pub(super) fn sample(&mut self, seen: &mut RadioSample, scene: &Scene) {
         let unit = normal3(&mut self.noise);
         let range = scene.r_tc_n.norm();
         let fault = self.faults.draw(range);
         // Two vehicles in one place have no line of sight.
-        if fault.dropped || range == 0.0 {
-            return RadioSample {
-                due: true,
-                valid: false,
-                ..*last
-            };
+        seen.due = true;
+        seen.valid = !fault.dropped && range > 0.0;
+        if !seen.valid {
+            return;
         }
-        let rate = scene.r_tc_n.dot(&scene.v_tc_i_n) / range;
-        RadioSample {
-            due: true,
-            valid: true,
-            range: range + unit[0] * self.sigma_range * fault.scale,
-            range_rate: rate + unit[1] * self.sigma_range_rate * fault.scale,
-        }
+        let rate = scene.r_tc_n.dot(&scene.v_tc_n) / range;
+        seen.range = range + unit[0] * self.sigma_range * fault.scale;
+        seen.range_rate = rate + unit[1] * self.sigma_range_rate * fault.scale;
     }
 }

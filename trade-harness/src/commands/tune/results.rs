@@ -2,17 +2,16 @@
 
 use std::io::Write;
 
-use super::super::compare::Report;
-use super::super::{Cast, Verdict, closing, say};
-use super::plan::{Plan, tuned_label};
+use study::{Assignment, Models, Plan, Study, StudyResult, World};
+
+use super::super::files::Report;
+use super::super::shared::{Verdict, closing, say};
+use super::contest::Contest;
 use crate::HarnessError;
 use crate::cli::TuneArgs;
-use crate::models::Assignment;
 use crate::output::OutputFolder;
 use crate::report::best::{self, Entry, Ranking};
 use crate::report::searched::{self, settings};
-use crate::scenarios::Scenario;
-use crate::study::{Study, StudyResult};
 use crate::tuning::notes::notes;
 use crate::tuning::sets::TunedFile;
 use crate::tuning::study::{Options, Searched};
@@ -20,14 +19,13 @@ use crate::tuning::study::{Options, Searched};
 /// What is through so far.
 pub(super) struct Done {
     pub(super) file: TunedFile,
-    pub(super) plans: Vec<Plan>,
+    pub(super) contests: Vec<Contest>,
     pub(super) studies: Vec<Study>,
     pub(super) results: Vec<StudyResult>,
 }
 
 impl Done {
     pub(super) fn new(args: &TuneArgs) -> Self {
-        let set = |a: &Assignment| format!("{}.{}={}", a.model, a.variable, a.value);
         Self {
             file: TunedFile {
                 harness_version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -38,36 +36,37 @@ impl Done {
                 evaluations: args.evaluations,
                 judge_seed: args.judge_seed,
                 judge_runs: args.judge_runs,
-                set: args.study.assignments.iter().map(set).collect(),
+                set: args.study.assignments.iter().map(Assignment::to_string).collect(),
                 sets: Vec::new(),
             },
-            plans: Vec::new(),
+            contests: Vec::new(),
             studies: Vec::new(),
             results: Vec::new(),
         }
     }
 
-    /// Contents of `search.csv`, with what another plan has so far.
-    pub(super) fn search_csv(&self, under_way: Option<&Plan>, options: &Options) -> Result<Vec<u8>, HarnessError> {
-        let plans = self.plans.iter().chain(under_way);
-        let searches = plans.map(|plan| (plan.scenario.name, plan.tuning.filters.as_slice()));
+    /// Contents of `search.csv`, with what another contest has so far.
+    pub(super) fn search_csv(&self, under_way: Option<&Contest>, options: &Options) -> Result<Vec<u8>, HarnessError> {
+        let contests = self.contests.iter().chain(under_way);
+        let searches = contests.map(|c| (c.world.name.as_str(), c.tuning.filters.as_slice()));
         searched::render(searches, options.objective)
     }
 
     fn rankings<'a>(&'a self, report: &'a Report<'_>, options: &Options) -> Vec<Ranking<'a>> {
-        let ranking = |plan: &'a Plan| {
-            let filters = plan.tuning.filters.iter();
-            let entries = filters.filter_map(|searched| entry(searched, plan.scenario, report, options));
+        let ranking = |contest: &'a Contest| {
+            let filters = contest.tuning.filters.iter();
+            let entries = filters.filter_map(|searched| entry(searched, &contest.world, report, options));
             Ranking::new(entries.collect(), options.objective)
         };
-        self.plans.iter().map(ranking).collect()
+        self.contests.iter().map(ranking).collect()
     }
 
-    /// Writes every file; what shows the epochs of the scenario that has just been judged, and no earlier one.
+    /// Writes every file; what shows the epochs of the world that has just been judged, and no earlier one.
     pub(super) fn write(
         &self,
         folder: &OutputFolder,
-        cast: &Cast,
+        models: &Models,
+        judge: &Plan,
         args: &TuneArgs,
         options: &Options,
     ) -> Result<Vec<String>, HarnessError> {
@@ -80,17 +79,17 @@ impl Done {
             ("tuned.json".to_owned(), self.file.render()?),
         ];
         let written = self.studies.len().saturating_sub(1);
-        report.write(folder, cast, options.jobs, written, more)
+        report.write(folder, models, judge, written, more)
     }
 
     fn markdown(&self, rankings: &[Ranking<'_>], args: &TuneArgs) -> String {
         let mut text = "# Every filter at its own best\n".to_owned();
-        for (plan, ranking) in self.plans.iter().zip(rankings) {
-            let heading = heading(plan.scenario, args);
+        for (contest, ranking) in self.contests.iter().zip(rankings) {
+            let heading = heading(&contest.world, args);
             let legend = best::LEGEND.replace('\n', "\n\n");
             text.push_str(&format!(
                 "\n## {}\n\n{heading}\n\n{}\n{legend}\n",
-                plan.scenario.name,
+                contest.world.name,
                 ranking.markdown()
             ));
         }
@@ -106,13 +105,13 @@ impl Done {
         out: &mut dyn Write,
     ) -> Result<Verdict, HarnessError> {
         let report = Report::new(&self.studies, &self.results);
-        for (plan, ranking) in self.plans.iter().zip(self.rankings(&report, options)) {
-            let heading = heading(plan.scenario, args);
+        for (contest, ranking) in self.contests.iter().zip(self.rankings(&report, options)) {
+            let heading = heading(&contest.world, args);
             say(
                 out,
                 &format!(
                     "{}: {heading}\n{}\n{}\n",
-                    plan.scenario.name,
+                    contest.world.name,
                     ranking.render(),
                     best::LEGEND
                 ),
@@ -123,7 +122,7 @@ impl Done {
     }
 }
 
-fn heading(scenario: &Scenario, args: &TuneArgs) -> String {
+fn heading(world: &World, args: &TuneArgs) -> String {
     format!(
         "least RMSE of {} with NEES from {} to {}, {} evaluations of {} runs from seed {}; judged by {} runs from seed {}, {} to {} s",
         args.objective.name(),
@@ -134,36 +133,31 @@ fn heading(scenario: &Scenario, args: &TuneArgs) -> String {
         args.study.seed,
         args.judge_runs,
         args.judge_seed,
-        scenario.scored_from,
-        scenario.duration,
+        world.scored_from_s,
+        world.duration_s,
     )
 }
 
 /// A filter's line in the table; `None` while it is not judged.
-fn entry<'a>(
-    searched: &'a Searched,
-    scenario: &Scenario,
-    report: &'a Report<'_>,
-    options: &Options,
-) -> Option<Entry<'a>> {
+fn entry<'a>(searched: &'a Searched, world: &World, report: &'a Report<'_>, options: &Options) -> Option<Entry<'a>> {
     let row = |label: &str| {
         report
             .rows
             .iter()
-            .find(|r| r.scenario == scenario.name && r.filter == label)
+            .find(|r| r.scenario == world.name && r.filter == label)
     };
     let timing = |label: &str| {
         report
             .timings
             .iter()
-            .find(|t| t.scenario == scenario.name && t.filter == label)
+            .find(|t| t.scenario == world.name && t.filter == label)
     };
-    let given = &searched.base.label;
+    let given = &searched.contender.base.label;
     let winner = searched.best();
-    let label = winner.map_or_else(|| given.clone(), |_| tuned_label(given));
+    let label = winner.map_or_else(|| given.clone(), |_| searched.contender.tuned().label);
     let best = row(&label)?;
     let mut notes = notes(searched, options);
-    if !options.limits.hold(best.nees) {
+    if !options.limits.hold(best.nees.mean) {
         notes.push("judged, its NEES is outside the limits".to_owned());
     }
     let found = winner.map(|w| settings(searched.settings(w)));

@@ -1,0 +1,206 @@
+//! From a plan to the parts of its runs.
+
+use std::collections::BTreeSet;
+
+use cosim::Value;
+
+use crate::arguments::{Assignment, FilterChoice};
+use crate::error::StudyError;
+use crate::models::{Models, NAV, OwnFmus, TRUTH};
+use crate::participant::Participant;
+use crate::plan::Plan;
+use crate::spec::Spec;
+use crate::starts::{StartValues, check_real_range};
+use crate::study::Study;
+use crate::tuned::TunedSet;
+use crate::variation::{Variation, Varied};
+use crate::world::World;
+
+impl Models {
+    /// Opens the FMUs that a plan names.
+    ///
+    /// * `own`: our FMUs, as far as [`Plan::needs`] them.
+    ///
+    /// # Errors
+    /// As for [`Models::open`].
+    pub fn of(plan: &Plan, own: &OwnFmus) -> Result<Self, StudyError> {
+        let truth = plan.truth.as_deref().or(own.truth.as_deref());
+        Self::open(
+            truth.unwrap_or(TRUTH.as_ref()),
+            own.nav.as_deref(),
+            &plan.foreign,
+            &plan.mappings,
+        )
+    }
+
+    /// The study of one world of a plan.
+    ///
+    /// # Errors
+    /// As for [`Models::spec`].
+    pub fn study(&self, plan: &Plan, world: &World) -> Result<Study, StudyError> {
+        Ok(Study {
+            spec: self.spec(plan, world)?,
+            runs: plan.runs,
+            jobs: plan.threads(),
+            case: plan.case.clone(),
+        })
+    }
+
+    /// What the runs of one world of a plan share.
+    ///
+    /// # Errors
+    /// What cannot be set or varied or does not exist, with the names that do.
+    pub fn spec(&self, plan: &Plan, world: &World) -> Result<Spec, StudyError> {
+        let choices = plan.choices(world);
+        let assignments: Vec<Assignment> = plan.in_fmus().cloned().collect();
+        let (mut truth, mut filters) = self.cast(world, choices, &plan.tuned, &assignments)?;
+        self.vary(&mut truth, &mut filters, &plan.variations, &assignments)?;
+        let suggested = self.truth.description().default_experiment.step_size;
+        // A foreign truth may keep its sample period to itself; then it is taken to sample at each step.
+        let sample_period = self
+            .sample_period(&truth, world)
+            .or(plan.step_s)
+            .or(suggested)
+            .unwrap_or(world.sample_period_s);
+        let world = World {
+            duration_s: plan.duration_s.unwrap_or(world.duration_s),
+            ..world.clone()
+        };
+        Ok(Spec {
+            world,
+            truth,
+            filters,
+            seed: plan.seed,
+            step: plan.step_s.unwrap_or(sample_period),
+            sample_period,
+            scheme: plan.scheme,
+        })
+    }
+
+    /// The truth of a world by itself, for a flight that nobody navigates.
+    ///
+    /// # Errors
+    /// What cannot be set or does not exist, with the names that do.
+    pub fn truth_alone(&self, world: &World, assignments: &[Assignment]) -> Result<Participant, StudyError> {
+        for a in assignments {
+            self.require(&a.model, &a.to_string())?;
+        }
+        Ok(StartValues::new(&self.truth)
+            .world(world)?
+            .assign(assignments)?
+            .named(TRUTH))
+    }
+
+    /// The parts of a run: the truth, then each chosen filter, then the foreign ones.
+    ///
+    /// * `tuned`: sets from a search, beside the presets of the FMUs.
+    ///
+    /// # Errors
+    /// What cannot be set or does not exist, with the names that do.
+    pub fn cast(
+        &self,
+        world: &World,
+        choices: &[FilterChoice],
+        tuned: &[TunedSet],
+        assignments: &[Assignment],
+    ) -> Result<(Participant, Vec<Participant>), StudyError> {
+        let truth = self.truth_alone(world, assignments)?;
+        let mut filters = Vec::new();
+        for choice in choices {
+            let model = self.model_of(choice)?;
+            let starts = StartValues::new(model).world(world)?;
+            let tuned = tuned
+                .iter()
+                .filter(|t| t.scenario == world.name && t.filter == choice.name);
+            let starts = if model.name == NAV {
+                starts.filter(choice, tuned)?
+            } else {
+                starts.tuned(choice, tuned)?
+            };
+            if let Some(why) = model.filters.without_meaning(&choice.name, &world.name) {
+                return Err(StudyError::NoMeaning {
+                    filter: choice.label.clone(),
+                    scenario: world.name.clone(),
+                    why: why.to_owned(),
+                });
+            }
+            filters.push(starts.assign(assignments)?.named(&choice.label));
+        }
+        for model in &self.foreign {
+            filters.push(
+                StartValues::new(model)
+                    .world(world)?
+                    .assign(assignments)?
+                    .named(&model.name),
+            );
+        }
+        let mut labels = BTreeSet::from([TRUTH]);
+        if let Some(twice) = filters.iter().find(|f| !labels.insert(&f.label)) {
+            return Err(StudyError::LabelTwice {
+                label: twice.label.clone(),
+            });
+        }
+        if filters.is_empty() {
+            return Err(StudyError::NoFilter);
+        }
+        Ok((truth, filters))
+    }
+
+    /// Time between the truth's samples, s, if it has a parameter of that name; a value that is not positive stands for
+    /// the world's own.
+    pub fn sample_period(&self, truth: &Participant, world: &World) -> Option<f64> {
+        let variable = self.truth.description().get("sample_period");
+        match truth.start("sample_period").cloned().or_else(|| variable?.start())? {
+            // The mission's own, also where a sensor has a period of its own.
+            Value::Real(_) if self.truth.description().get("mission_file").is_some() => Some(world.sample_period_s),
+            Value::Real(period) if period <= 0.0 => Some(world.sample_period_s),
+            Value::Real(period) => Some(period),
+            _ => None,
+        }
+    }
+
+    /// Makes parameters of the parts of a run differ from run to run; after presets and `--set`.
+    ///
+    /// * `assignments`: what `--set` sets, to refuse what is both set and varied.
+    ///
+    /// # Errors
+    /// What does not exist, is no Real parameter, cannot take an end of its range, or stands twice.
+    pub fn vary(
+        &self,
+        truth: &mut Participant,
+        filters: &mut [Participant],
+        variations: &[Variation],
+        assignments: &[Assignment],
+    ) -> Result<(), StudyError> {
+        for (draw, variation) in variations.iter().enumerate() {
+            let Variation {
+                model: name,
+                variable,
+                distribution,
+            } = variation;
+            let model = self.require(name, &variation.to_string())?;
+            check_real_range(model, variable, distribution.ends())?;
+            let set = assignments.iter().any(|a| a.model == *name && a.variable == *variable);
+            let earlier = &variations[..draw];
+            if set || earlier.iter().any(|v| v.model == *name && v.variable == *variable) {
+                return Err(StudyError::VariedTwice {
+                    model: name.clone(),
+                    variable: variable.clone(),
+                });
+            }
+            let varied = Varied {
+                name: model.contract_name(variable).to_owned(),
+                distribution: *distribution,
+                draw,
+            };
+            let parts = std::iter::once(&mut *truth).chain(filters.iter_mut());
+            for part in parts.filter(|p| p.model == *name) {
+                part.starts.retain(|(name, _)| *name != varied.name);
+                part.record.retain(|(name, _)| name != variable);
+                part.record.push((variable.clone(), distribution.to_string()));
+                part.varied.push(varied.clone());
+            }
+        }
+        Ok(())
+    }
+}

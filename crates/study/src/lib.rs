@@ -1,0 +1,55 @@
+//! Monte Carlo studies of navigation filters that are coupled with a simulated world through FMI.
+//!
+//! A [`Plan`] says what is studied: worlds, filters with their presets, runs, seed, what is set and what is varied. A file,
+//! a command line and a program make the same plan. [`Models`] opens the FMUs it names and casts the parts of a run,
+//! [`run_once`] is one run, [`score`] makes a [`Record`] of each estimate, and [`Study::run`] folds the records of all runs
+//! into a [`FilterResult`] for each filter, of which a [`Summary`] holds the statistics.
+//!
+//! Truth and filters are known by the variable names of the contract alone, so anyone's FMU can take either place. Not
+//! here: how a plan is typed in, how results are printed, and what they are held to.
+//!
+//! Start reading at [`Plan`], then [`Study`].
+
+mod arguments;
+mod cast;
+mod error;
+mod fold;
+mod history;
+mod models;
+mod ordered;
+mod participant;
+mod plan;
+mod readers;
+mod record;
+mod run;
+mod samples;
+mod score;
+mod spec;
+mod starts;
+mod study;
+mod summary;
+mod tally;
+mod tuned;
+mod variation;
+mod world;
+pub mod worlds;
+
+pub use arguments::{Assignment, FilterChoice, ForeignFilter, Mapping, PAPER};
+pub use error::{StudyError, chain};
+pub use fold::{FilterResult, RunRow, Timing};
+pub use models::{Model, Models, NAV, OwnFmus, TRUTH, filters_of};
+pub use participant::{Participant, SlaveSource};
+pub use plan::{Plan, check_case, scheme_name};
+pub use record::{QUANTITIES, Quantity, Record};
+pub use run::{Ending, Failure, RunReport, SlaveTime, call_time, rehearse, run_once, seat};
+pub use samples::{Estimate, Status, StatusItems, TruthSample};
+pub use score::score;
+pub use spec::Spec;
+pub use starts::check_real_range;
+pub use study::{Study, StudyResult};
+pub use summary::{QuantitySummary, ScalarSummary, Summary};
+pub use tally::{Tally, evaluate};
+pub use tuned::TunedSet;
+pub use variation::{Distribution, Variation, Varied};
+pub use world::{Axes, Frame, Innovation, Signals, World};
+pub use worlds::MISSION;

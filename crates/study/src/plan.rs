@@ -1,0 +1,330 @@
+//! What is studied.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use cosim::Scheme;
+use serde::{Deserialize, Serialize};
+
+use crate::arguments::{Assignment, FilterChoice, ForeignFilter, Mapping, PAPER};
+use crate::error::StudyError;
+use crate::spec::Spec;
+use crate::tuned::TunedSet;
+use crate::variation::Variation;
+use crate::world::World;
+use crate::worlds::{From, MISSION, Source};
+
+/// A study as somebody asks for it; in a file it has the names of the command line's options.
+///
+/// ```
+/// let plan: study::Plan = serde_json::from_str(
+///     r#"{
+///         "scenario": ["leo_venting"],
+///         "filters": ["snc", "milton@consistent"],
+///         "runs": 20,
+///         "set": ["fmu-truth.vent.scale=10"],
+///         "vary": ["fmu-truth.lidar.sigma_range=loguniform:0.01:1"]
+///     }"#,
+/// )
+/// .unwrap();
+/// assert!(plan.check().is_ok());
+/// assert_eq!((plan.seed, plan.case.as_str()), (1, "nominal"));
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Plan {
+    /// Names of missions that come with the project, a study each.
+    #[serde(rename = "scenario")]
+    pub scenarios: Vec<String>,
+    /// Mission files, a study each, after those.
+    #[serde(rename = "mission")]
+    pub missions: Vec<PathBuf>,
+    /// Text of the `case` column; with the world it names a study.
+    pub case: String,
+    /// Filters of fmu-nav, and tuned foreign ones; `None` for those of each world.
+    pub filters: Option<Vec<FilterChoice>>,
+    /// Runs of each study; run j has the parameter `run` = j.
+    pub runs: u32,
+    /// Seed of the studies; with the number of a run it selects every random stream.
+    pub seed: i32,
+    /// Threads; `None` for one on each core. They change no number, so a resolved plan does not tell.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub jobs: Option<NonZeroUsize>,
+    /// Length of the runs, s; `None` for that of each world.
+    pub duration_s: Option<f64>,
+    /// Communication step, s; `None` for the truth's sample period.
+    pub step_s: Option<f64>,
+    /// When values are handed over.
+    #[serde(with = "scheme")]
+    pub scheme: Scheme,
+    /// Parameters set for every run, after the preset.
+    #[serde(rename = "set")]
+    pub assignments: Vec<Assignment>,
+    /// Parameters drawn anew in each run, the same for all filters.
+    #[serde(rename = "vary")]
+    pub variations: Vec<Variation>,
+    /// Foreign FMU in the place of fmu-truth.
+    pub truth: Option<PathBuf>,
+    /// Foreign filters, after those of fmu-nav.
+    #[serde(rename = "nav")]
+    pub foreign: Vec<ForeignFilter>,
+    /// Names in foreign FMUs.
+    #[serde(rename = "map")]
+    pub mappings: Vec<Mapping>,
+    /// Parameter sets that a search has found; they stand beside the presets of the FMUs.
+    pub tuned: Vec<TunedSet>,
+}
+
+impl Default for Plan {
+    fn default() -> Self {
+        Self {
+            scenarios: vec!["leo_venting".to_owned()],
+            missions: Vec::new(),
+            case: "nominal".to_owned(),
+            filters: None,
+            runs: 100,
+            seed: 1,
+            jobs: None,
+            duration_s: None,
+            step_s: None,
+            scheme: Scheme::GaussSeidel,
+            assignments: Vec::new(),
+            variations: Vec::new(),
+            truth: None,
+            foreign: Vec::new(),
+            mappings: Vec::new(),
+            tuned: Vec::new(),
+        }
+    }
+}
+
+impl Plan {
+    /// Checks what no type does: ranges of numbers and the name of the case.
+    ///
+    /// # Errors
+    /// [`StudyError::Plan`].
+    pub fn check(&self) -> Result<(), StudyError> {
+        let wrong = |field, problem: String| Err(StudyError::Plan { field, problem });
+        if self.runs == 0 || i32::try_from(self.runs).is_err() {
+            return wrong("runs", format!("= {}: give 1 to {}", self.runs, i32::MAX));
+        }
+        if self.seed < 0 {
+            return wrong("seed", format!("= {}: give 0 or more", self.seed));
+        }
+        if let Some(duration) = self.duration_s.filter(|d| !(d.is_finite() && *d > 0.0)) {
+            return wrong("duration_s", format!("= {duration}: give a positive time in seconds"));
+        }
+        if let Err(problem) = check_case(&self.case) {
+            return wrong("case", format!("= {:?}: {problem}", self.case));
+        }
+        Ok(())
+    }
+
+    /// The worlds, in the order of the plan.
+    ///
+    /// * `folder`: where the file of a mission goes that the plan changes.
+    ///
+    /// # Errors
+    /// [`StudyError::Mission`], [`StudyError::MissionFile`], [`StudyError::ScenarioTwice`].
+    pub fn worlds(&self, folder: &Path) -> Result<Vec<World>, StudyError> {
+        let named = self.scenarios.iter().map(|name| From::Name(name));
+        let files = self.missions.iter().map(|path| From::File(path));
+        let mut found: Vec<World> = Vec::new();
+        for from in named.chain(files) {
+            let source = Source {
+                from,
+                assignments: &self.assignments,
+                folder,
+            };
+            let world = source.world()?;
+            if found.iter().any(|w| w.name == world.name) {
+                return Err(StudyError::ScenarioTwice { name: world.name });
+            }
+            found.push(world);
+        }
+        Ok(found)
+    }
+
+    /// What is set in the FMUs: all but the mission's own keys.
+    pub fn in_fmus(&self) -> impl Iterator<Item = &Assignment> {
+        self.assignments.iter().filter(|a| a.model != MISSION)
+    }
+
+    /// Filters that are chosen by name in a world; the foreign ones follow them.
+    pub fn choices<'a>(&'a self, world: &'a World) -> &'a [FilterChoice] {
+        self.filters.as_ref().unwrap_or(&world.filters)
+    }
+
+    /// Whether the plan uses our fmu-truth and our fmu-nav.
+    pub fn needs(&self) -> [bool; 2] {
+        let foreign = |c: &FilterChoice| c.preset != PAPER && self.foreign.iter().any(|f| f.label == c.name);
+        let of_ours = |choices: &Vec<FilterChoice>| choices.iter().any(|c| !foreign(c));
+        [self.truth.is_none(), self.filters.as_ref().is_none_or(of_ours)]
+    }
+
+    /// Threads to use.
+    pub fn threads(&self) -> usize {
+        self.jobs
+            .or_else(|| std::thread::available_parallelism().ok())
+            .map_or(1, usize::from)
+    }
+
+    /// The plan of one of its studies alone, with nothing left to a default: what it takes to run that study again.
+    pub fn resolved(&self, spec: &Spec) -> Self {
+        let named = spec.world.mission_file.is_none();
+        let foreign = |label: &str| self.foreign.iter().any(|f| f.label == label);
+        let labels = spec
+            .filters
+            .iter()
+            .map(|p| p.label.as_str())
+            .filter(|label| !foreign(label));
+        Self {
+            scenarios: if named {
+                vec![spec.world.name.clone()]
+            } else {
+                Vec::new()
+            },
+            missions: spec.world.mission_file.clone().into_iter().collect(),
+            // What the file of a changed mission holds is not set again.
+            assignments: self.in_fmus().cloned().collect(),
+            filters: Some(labels.filter_map(|label| label.parse().ok()).collect()),
+            jobs: None,
+            duration_s: Some(spec.world.duration_s),
+            step_s: Some(spec.step),
+            tuned: self
+                .tuned
+                .iter()
+                .filter(|t| t.scenario == spec.world.name)
+                .cloned()
+                .collect(),
+            ..self.clone()
+        }
+    }
+}
+
+/// Checks the name of a case, which stands in file names.
+///
+/// # Errors
+/// What is allowed.
+pub fn check_case(text: &str) -> Result<(), String> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
+    if !text.is_empty() && text.chars().all(plain) && !text.starts_with('.') {
+        Ok(())
+    } else {
+        Err("use letters, digits, '-', '_' and '.'".to_owned())
+    }
+}
+
+/// [`Scheme`] as text.
+mod scheme {
+    use cosim::Scheme;
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    const NAMES: [(Scheme, &str); 2] = [(Scheme::GaussSeidel, "gauss-seidel"), (Scheme::Jacobi, "jacobi")];
+
+    pub(super) fn name(scheme: Scheme) -> &'static str {
+        NAMES.iter().find(|(s, _)| *s == scheme).map_or("", |(_, name)| name)
+    }
+
+    // serde's `with` hands over a reference.
+    #[allow(clippy::trivially_copy_pass_by_ref)]
+    pub(super) fn serialize<S: Serializer>(scheme: &Scheme, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(name(*scheme))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Scheme, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        let found = NAMES.iter().find(|(_, name)| *name == text).map(|(scheme, _)| *scheme);
+        found.ok_or_else(|| D::Error::custom(format!("scheme '{text}': give gauss-seidel or jacobi")))
+    }
+}
+
+/// Name of a scheme, as in plans and manifests.
+pub fn scheme_name(scheme: Scheme) -> &'static str {
+    scheme::name(scheme)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Plan, serde_json::Error> {
+        serde_json::from_str(text)
+    }
+
+    #[test]
+    fn an_empty_plan_is_the_default_and_every_plan_is_read_back() {
+        assert_eq!(read("{}").unwrap(), Plan::default());
+        let plan = Plan {
+            scenarios: vec!["formation".to_owned()],
+            missions: vec!["a.toml".into()],
+            case: "odd".to_owned(),
+            filters: Some(vec!["snc".parse().unwrap(), "milton@consistent".parse().unwrap()]),
+            runs: 7,
+            seed: 3,
+            jobs: NonZeroUsize::new(2),
+            duration_s: Some(100.5),
+            step_s: Some(0.1),
+            scheme: Scheme::Jacobi,
+            assignments: vec!["fmu-truth.vent.scale=10".parse().unwrap()],
+            variations: vec!["fmu-nav.k=loguniform:0.1:10".parse().unwrap()],
+            truth: Some("their.fmu".into()),
+            foreign: vec!["other=b.fmu".parse().unwrap()],
+            mappings: vec!["other.x=est.r_tc_n".parse().unwrap()],
+            tuned: vec![TunedSet {
+                file: None,
+                scenario: "formation".to_owned(),
+                filter: "snc".to_owned(),
+                preset: PAPER.to_owned(),
+                name: "tuned".to_owned(),
+                values: [("snc.q".to_owned(), 0.1 + 0.2)].into(),
+                search_objective: Some(0.3),
+                search_nees: None,
+                feasible: true,
+            }],
+        };
+        let text = serde_json::to_string(&plan).unwrap();
+        assert_eq!(read(&text).unwrap(), plan, "{text}");
+        assert!(text.contains("\"set\":[\"fmu-truth.vent.scale=10\"]"), "{text}");
+    }
+
+    #[test]
+    fn mistakes_in_a_file_are_told_with_their_place() {
+        for (text, says) in [
+            ("{\"rums\": 3}", "rums"),
+            ("{\"scheme\": \"newton\"}", "gauss-seidel or jacobi"),
+            ("{\"filters\": [\"a@\"]}", "NAME@PRESET"),
+            ("{\"vary\": [\"m.k=uniform:2:1\"]}", "2 to 1 is empty"),
+            ("{\"nav\": [\"a.fmu\"]}", "LABEL=PATH"),
+        ] {
+            let error = read(text).unwrap_err().to_string();
+            assert!(error.contains(says) && error.contains("line 1"), "{text}: {error}");
+        }
+        for (text, says) in [
+            ("{\"runs\": 0}", "plan: runs = 0"),
+            ("{\"seed\": -1}", "plan: seed = -1"),
+            ("{\"case\": \"a/b\"}", "letters"),
+            ("{\"duration_s\": 0}", "positive"),
+        ] {
+            let error = read(text).unwrap().check().unwrap_err().to_string();
+            assert!(error.contains(says), "{text}: {error}");
+        }
+        let plan = read("{\"scenario\": [\"formation\", \"formation\"]}").unwrap();
+        assert!(matches!(
+            plan.worlds(Path::new("none")),
+            Err(StudyError::ScenarioTwice { .. })
+        ));
+    }
+
+    #[test]
+    fn our_fmus_are_needed_unless_others_take_their_place() {
+        assert_eq!(read("{}").unwrap().needs(), [true, true]);
+        let foreign = r#"{"truth": "t.fmu", "nav": ["a=a.fmu"], "filters": ["a@tuned"]}"#;
+        assert_eq!(read(foreign).unwrap().needs(), [false, false]);
+        // Without a preset the label can only be a filter of ours.
+        let bare = r#"{"nav": ["a=a.fmu"], "filters": ["a"]}"#;
+        assert_eq!(read(bare).unwrap().needs(), [true, true]);
+        assert_eq!(read(r#"{"filters": []}"#).unwrap().needs(), [true, false]);
+    }
+}

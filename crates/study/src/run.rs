@@ -1,0 +1,329 @@
+//! One run: one world, every filter of the study beside it.
+
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use cosim::{RunOptions, Scheme, SlaveId, StepContext, System, Value};
+
+use crate::error::{StudyError, chain};
+use crate::history::History;
+use crate::participant::Participant;
+use crate::readers::{EstimateReader, TruthReader};
+use crate::samples::{Estimate, Status, TruthSample};
+use crate::spec::{SAME_TIME, Spec};
+
+/// Why a filter has no result in a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Failure {
+    /// When, s; `None` before the first step.
+    pub time: Option<f64>,
+    /// What happened.
+    pub message: String,
+}
+
+/// How a run ended for one filter.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ending {
+    /// Set when there is no result.
+    pub failure: Option<Failure>,
+    /// The filter's status said so.
+    pub says_diverged: bool,
+}
+
+/// Time one slave took over a run.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct SlaveTime {
+    /// Inside `fmi2DoStep`.
+    pub step: Duration,
+    /// Inside the get and set functions.
+    pub exchange: Duration,
+}
+
+/// A run that is over.
+#[derive(Debug)]
+pub struct RunReport {
+    /// How it ended, by filter.
+    pub endings: Vec<Ending>,
+    /// Communication steps taken.
+    pub steps: u64,
+    /// Time the truth took.
+    pub truth_time: SlaveTime,
+    /// Time each filter took.
+    pub filter_times: Vec<SlaveTime>,
+}
+
+/// Every filter of a run, and how far it has come.
+struct Seat {
+    id: SlaveId,
+    reader: EstimateReader,
+    last: u32,
+}
+
+struct Coupled {
+    system: System,
+    truth: SlaveId,
+    truth_reader: TruthReader,
+    seats: Vec<Result<Seat, StudyError>>,
+}
+
+/// Instantiates and wires the truth and every filter; a filter that cannot be is an error of its own.
+fn couple(spec: &Spec, run: u32) -> Result<Coupled, StudyError> {
+    let mut system = System::new();
+    let truth = seat(&mut system, &spec.truth, spec.seed, run)?;
+    let truth_reader = TruthReader::new(&system, truth, &spec.truth, spec.world.frame)?;
+    let placed: Vec<_> = spec
+        .filters
+        .iter()
+        .map(|filter| seat(&mut system, filter, spec.seed, run))
+        .collect();
+    system.connect_by_name()?;
+    let unconnected = system.unconnected_inputs();
+    let seats = placed.into_iter().zip(&spec.filters).map(|(placed, filter)| {
+        let id = placed?;
+        if let Some(open) = unconnected
+            .iter()
+            .find(|u| u.slave == id && u.input.starts_with("nav_init."))
+        {
+            return Err(StudyError::MissingInput {
+                label: filter.label.clone(),
+                input: open.input.clone(),
+            });
+        }
+        let reader = EstimateReader::new(&system, id, filter, spec.world.frame)?;
+        Ok(Seat { id, reader, last: 0 })
+    });
+    let seats = seats.collect();
+    Ok(Coupled {
+        system,
+        truth,
+        truth_reader,
+        seats,
+    })
+}
+
+/// Adds a slave with its start values; a foreign one need not know of seeds and runs.
+pub fn seat(system: &mut System, participant: &Participant, seed: i32, run: u32) -> Result<SlaveId, StudyError> {
+    let id = system.add(participant.source.create(&participant.label)?)?;
+    for (own, contract) in &participant.aliases {
+        system.alias(id, own, contract)?;
+    }
+    for (name, value) in &participant.starts {
+        system.set_start(id, name, value.clone())?;
+    }
+    for varied in &participant.varied {
+        system.set_start(id, &varied.name, Value::Real(varied.value(seed, run)))?;
+    }
+    let run = i32::try_from(run).unwrap_or(i32::MAX);
+    for (name, value) in [("study_seed", seed), ("run", run)] {
+        if system.port(id, name).is_some() {
+            system.set_start(id, name, Value::Integer(value))?;
+        }
+    }
+    Ok(id)
+}
+
+/// Couples everything and goes through initialization once, so that a bad setting shows before the first run.
+///
+/// * returns: inputs of the filters that nothing feeds and that keep their start values, as `label: input`.
+///
+/// # Errors
+/// Whatever a slave or the wiring refuses.
+pub fn rehearse(spec: &Spec) -> Result<Vec<String>, StudyError> {
+    spec.check_grid()?;
+    let mut coupled = couple(spec, 0)?;
+    let mut seats = Vec::new();
+    for seat in coupled.seats {
+        seats.push(seat?.id);
+    }
+    let report = coupled
+        .system
+        .run(&spec.options(false), |_: &mut StepContext<'_>| ControlFlow::Break(()))?;
+    if let Some(refused) = report.isolated.into_iter().next() {
+        return Err(StudyError::Refused {
+            label: refused.name,
+            source: Box::new(refused.error),
+        });
+    }
+    let open = coupled
+        .system
+        .unconnected_inputs()
+        .into_iter()
+        .filter(|u| seats.contains(&u.slave));
+    Ok(open.map(|u| format!("{}: {}", u.slave_name, u.input)).collect())
+}
+
+/// Time of one `fmi2DoStep` of a filter that has no new sample: the cost of crossing the interface, s.
+///
+/// # Errors
+/// As for a run; a filter that fails alone is an error here.
+pub fn call_time(spec: &Spec, filter: &Participant) -> Result<Duration, StudyError> {
+    const CALLS: u32 = 2000;
+    let mut system = System::new();
+    seat(&mut system, filter, spec.seed, 0)?;
+    let step = 1e-3 * spec.sample_period;
+    let options = RunOptions {
+        stop: step * f64::from(CALLS),
+        step,
+        timing: true,
+        ..RunOptions::default()
+    };
+    let report = system.run(&options, |_: &mut StepContext<'_>| ControlFlow::<()>::Continue(()))?;
+    Ok(report.timings.first().map_or(Duration::ZERO, |t| t.step / CALLS))
+}
+
+/// Runs one world with every filter beside it.
+///
+/// * `observe`: called for each estimate with the filter's index, the truth at the estimate's own epoch and the
+///   estimate; a text it returns fails that filter.
+/// * returns: how it ended for each filter. Never an error: what goes wrong is a failure of the filters it concerns.
+pub fn run_once(
+    spec: &Spec,
+    run: u32,
+    mut observe: impl FnMut(usize, &TruthSample, &Estimate) -> Result<(), String>,
+) -> RunReport {
+    let mut report = RunReport {
+        endings: vec![Ending::default(); spec.filters.len()],
+        steps: 0,
+        truth_time: SlaveTime::default(),
+        filter_times: vec![SlaveTime::default(); spec.filters.len()],
+    };
+    let Coupled {
+        mut system,
+        truth,
+        mut truth_reader,
+        mut seats,
+    } = match couple(spec, run) {
+        Ok(coupled) => coupled,
+        Err(error) => {
+            fail_all(&mut report.endings, None, &chain(&error));
+            return report;
+        }
+    };
+    for (seat, ending) in seats.iter().zip(&mut report.endings) {
+        if let Err(error) = seat {
+            ending.failure = Some(Failure {
+                time: None,
+                message: chain(error),
+            });
+        }
+    }
+
+    let mut history = History::new(spec);
+    let endings = &mut report.endings;
+    let outcome = system.run(&spec.options(true), |context: &mut StepContext<'_>| {
+        let handed_late = history.newest;
+        let Some(count) = truth_reader.newest(context) else {
+            return ControlFlow::Continue(());
+        };
+        if count > history.newest && context.time() <= spec.world.duration_s + SAME_TIME {
+            let number = u32::try_from(count).unwrap_or_default();
+            let Some(sample) = truth_reader.sample(context, number) else {
+                return ControlFlow::Continue(());
+            };
+            if let Err(message) = history.push(context.time(), sample) {
+                return ControlFlow::Break(message);
+            }
+        }
+        let handed = if spec.scheme == Scheme::Jacobi {
+            handed_late
+        } else {
+            history.newest
+        };
+        for (index, (seat, ending)) in seats.iter_mut().zip(endings.iter_mut()).enumerate() {
+            let Ok(seat) = seat else { continue };
+            if ending.failure.is_some() || !context.is_active(seat.id) {
+                continue;
+            }
+            let answered = answer(seat, context, &history, handed, ending, |t, e| observe(index, t, e));
+            if let Err(message) = answered {
+                ending.failure = Some(Failure {
+                    time: Some(context.time()),
+                    message,
+                });
+            }
+        }
+        ControlFlow::Continue(())
+    });
+
+    match outcome {
+        Err(error) => fail_all(&mut report.endings, None, &chain(&error)),
+        Ok(outcome) => {
+            report.steps = outcome.steps;
+            if let Some(message) = outcome.broke {
+                fail_all(&mut report.endings, Some(history.time), &message);
+            }
+            for (seat, ending) in seats.iter().zip(&mut report.endings) {
+                let Ok(seat) = seat else { continue };
+                if let Some(isolated) = outcome.isolated.iter().find(|i| i.slave == seat.id) {
+                    let message = chain(&isolated.error);
+                    ending.failure.get_or_insert(Failure {
+                        time: Some(isolated.time),
+                        message,
+                    });
+                } else if seat.last == 0 && ending.failure.is_none() {
+                    let message = "ended without an estimate: est.count never rose above 0".to_owned();
+                    ending.failure = Some(Failure {
+                        time: Some(history.time),
+                        message,
+                    });
+                }
+            }
+            let time_of = |slave: SlaveId| {
+                let timing = outcome.timings.get(slave.index());
+                timing.map_or_else(SlaveTime::default, |t| SlaveTime {
+                    step: t.step,
+                    exchange: t.set + t.get,
+                })
+            };
+            report.truth_time = time_of(truth);
+            for (seat, time) in seats.iter().zip(&mut report.filter_times) {
+                if let Ok(seat) = seat {
+                    *time = time_of(seat.id);
+                }
+            }
+        }
+    }
+    report
+}
+
+/// Takes the estimate of one filter, if it is new.
+fn answer(
+    seat: &mut Seat,
+    context: &mut StepContext<'_>,
+    history: &History,
+    handed: i32,
+    ending: &mut Ending,
+    observe: impl FnOnce(&TruthSample, &Estimate) -> Result<(), String>,
+) -> Result<(), String> {
+    // A filter that cannot be read is isolated by the master, which keeps the reason.
+    let Some(tag) = seat.reader.tag(context) else {
+        return Ok(());
+    };
+    ending.says_diverged |= tag.status == Some(Status::Diverged);
+    let Some(truth) = history.tagged(&tag, handed)? else {
+        return Ok(());
+    };
+    if truth.count <= seat.last {
+        return Ok(());
+    }
+    let Some(estimate) = seat.reader.estimate(context, &tag) else {
+        return Ok(());
+    };
+    seat.last = truth.count;
+    if let Some((what, value)) = estimate.first_not_finite() {
+        return Err(format!(
+            "estimate of sample {} ({} s) has a {what} of {value}",
+            truth.count, truth.time
+        ));
+    }
+    observe(truth, &estimate)
+}
+
+fn fail_all(endings: &mut [Ending], time: Option<f64>, message: &str) {
+    for ending in endings {
+        ending.failure.get_or_insert(Failure {
+            time,
+            message: message.to_owned(),
+        });
+    }
+}

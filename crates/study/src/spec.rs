@@ -1,0 +1,77 @@
+//! What the runs of one study share.
+
+use cosim::{OnSlaveError, RunOptions, Scheme};
+
+use crate::error::StudyError;
+use crate::participant::Participant;
+use crate::world::World;
+
+/// Differences of epochs below this are rounding, s.
+pub(crate) const SAME_TIME: f64 = 1e-6;
+
+/// What a run needs to know, apart from its number.
+#[derive(Debug)]
+pub struct Spec {
+    /// The world.
+    pub world: World,
+    /// The truth.
+    pub truth: Participant,
+    /// The filters, in the order of the results.
+    pub filters: Vec<Participant>,
+    /// Seed of the study.
+    pub seed: i32,
+    /// Communication step, s.
+    pub step: f64,
+    /// Time between sensor samples, s. Where sensors have periods of their own, the longest of which each is a whole
+    /// multiple: the grid on which samples lie.
+    pub sample_period: f64,
+    /// When values are handed over.
+    pub scheme: Scheme,
+}
+
+impl Spec {
+    /// Number of epochs in a run: whole sample periods, from the first.
+    pub fn epochs(&self) -> usize {
+        // A float-to-integer cast saturates; SAME_TIME forgives a duration that is a rounded multiple.
+        ((self.world.duration_s + SAME_TIME) / self.sample_period).floor() as usize
+    }
+
+    /// Time of an epoch, s.
+    pub fn time(&self, epoch: usize) -> f64 {
+        (epoch + 1) as f64 * self.sample_period
+    }
+
+    /// First epoch that counts in statistics over time.
+    pub fn first_scored(&self) -> usize {
+        (((self.world.scored_from_s - SAME_TIME) / self.sample_period).ceil() as usize).saturating_sub(1)
+    }
+
+    /// Checks that every sample that is used falls on a communication point.
+    ///
+    /// # Errors
+    /// [`StudyError::StepGrid`].
+    pub fn check_grid(&self) -> Result<(), StudyError> {
+        let whole = |x: f64| (x - x.round()).abs() < 1e-9 * x.abs().max(1.0) && x.round() >= 1.0;
+        let (step, period) = (self.step, self.sample_period);
+        let positive = step.is_finite() && step > 0.0 && period.is_finite() && period > 0.0;
+        if positive && (whole(period / step) || whole(step / period)) {
+            Ok(())
+        } else {
+            Err(StudyError::StepGrid { step, period })
+        }
+    }
+
+    pub(crate) fn options(&self, timing: bool) -> RunOptions {
+        // With the Jacobi scheme the last sample is handed over one step late.
+        let extra = if self.scheme == Scheme::Jacobi { self.step } else { 0.0 };
+        RunOptions {
+            start: 0.0,
+            stop: self.world.duration_s + extra,
+            step: self.step,
+            scheme: self.scheme,
+            on_slave_error: OnSlaveError::Isolate,
+            timing,
+            ..RunOptions::default()
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! A world, as a study sees it: how long it lasts, which variables are compared, in which axes, and by which filters.
+
+use std::path::PathBuf;
+
+use interface::Mission;
+use nalgebra::{Matrix3, Vector3};
+
+use crate::arguments::FilterChoice;
+use crate::samples::TruthSample;
+
+/// One world.
+#[derive(Debug, Clone, PartialEq)]
+pub struct World {
+    /// Name of its mission.
+    pub name: String,
+    /// What happens in it, in one sentence.
+    pub about: String,
+    /// What it reproduces.
+    pub reference: String,
+    /// Length of a run, s.
+    pub duration_s: f64,
+    /// Start of the time that statistics are taken over, s.
+    pub scored_from_s: f64,
+    /// Time between samples where the truth does not tell its own, s: the longest of which every sensor's period is a
+    /// whole multiple.
+    pub sample_period_s: f64,
+    /// Axes in which truth and filter give the relative state; the names of what is compared follow from them.
+    pub frame: Frame,
+    /// Axes in which results are given.
+    pub axes: Axes,
+    /// Rows that `nis` is taken over by a filter that does not say so itself.
+    pub nis_rows: u32,
+    /// Filters of fmu-nav that are compared unless others are asked for.
+    pub filters: Vec<FilterChoice>,
+    /// What a user should know of it.
+    pub notes: Vec<String>,
+    /// File that the FMUs read it from; `None` where they know it by its name.
+    pub mission_file: Option<PathBuf>,
+    /// The mission.
+    pub mission: Mission,
+}
+
+/// Axes of the relative state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Frame {
+    /// Target relative to chaser, axes N; of both vehicles the absolute state is known as well.
+    Inertial,
+    /// Chaser relative to target, LVLH axes of the target.
+    Lvlh,
+}
+
+/// Axes of results, and how the truth turns into them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Axes {
+    /// Radial, transverse and normal of the target's orbit about the origin of N, which does not turn.
+    Rtn,
+    /// The same about a body on the x axis of axes N that turn about z.
+    RtnRotating {
+        /// The body's place on x, m.
+        body_x_m: f64,
+        /// Time in which axes N turn by one radian, s.
+        time_per_radian_s: f64,
+    },
+    /// Those of the variables: LVLH of the target.
+    Lvlh,
+}
+
+/// Names of the variables that are compared; elements of vectors are `name[1]`..`name[3]`.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Signals {
+    /// Relative position of truth and filter, m. Required of both.
+    pub position: [&'static str; 2],
+    /// Relative velocity, m/s. Required of both.
+    pub velocity: [&'static str; 2],
+    /// Unmodelled acceleration, m/s2.
+    pub acceleration: [&'static str; 2],
+    /// Accelerometer bias, m/s2, chaser body axes.
+    pub bias: Option<[&'static str; 2]>,
+    /// Elements of the filter's vector of standard deviations that belong to the bias.
+    pub bias_sigma: Option<[&'static str; 3]>,
+    /// Position and velocity of the chaser in the truth, where the axes of the results depend on them; required then.
+    pub chaser: Option<[&'static str; 2]>,
+    /// Innovation of the filter, three rows at a time.
+    pub innovations: [Option<Innovation>; 2],
+}
+
+/// Three rows of an innovation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Innovation {
+    /// Names of the filter's variables.
+    pub names: [&'static str; 3],
+    /// Unit suffixes for column names.
+    pub units: [&'static str; 3],
+    /// Name of the vector of their predicted variances.
+    pub variance: &'static str,
+}
+
+/// Booleans of the truth of which each says that a sensor measured the target; a truth has those of its sensors.
+pub(crate) const MEASURED: [&str; 4] = ["lidar.valid", "camera.valid", "radio.valid", "metrology.valid"];
+
+const INERTIAL: Signals = Signals {
+    position: ["truth.r_tc_n", "est.r_tc_n"],
+    velocity: ["truth.v_tc_n", "est.v_tc_n"],
+    acceleration: ["truth.a_t_n", "est.a_t_n"],
+    bias: Some(["truth.b_c_bc", "est.b_c_bc"]),
+    bias_sigma: Some(["cov.sigma[16]", "cov.sigma[17]", "cov.sigma[18]"]),
+    chaser: Some(["truth.r_c_n", "truth.v_c_n"]),
+    innovations: [
+        Some(Innovation {
+            names: ["innov.range", "innov.azimuth", "innov.elevation"],
+            units: ["m", "rad", "rad"],
+            variance: "innov.s",
+        }),
+        None,
+    ],
+};
+
+const LVLH: Signals = Signals {
+    position: ["truth.rho_lvlh", "est.rho_lvlh"],
+    velocity: ["truth.rho_dot_lvlh", "est.rho_dot_lvlh"],
+    acceleration: ["truth.d_lvlh", "est.d_lvlh"],
+    bias: None,
+    bias_sigma: None,
+    chaser: None,
+    innovations: [
+        Some(Innovation {
+            names: ["innov.rho[1]", "innov.rho[2]", "innov.rho[3]"],
+            units: ["m"; 3],
+            variance: "innov.rho_s",
+        }),
+        Some(Innovation {
+            names: ["innov.rho_dot[1]", "innov.rho_dot[2]", "innov.rho_dot[3]"],
+            units: ["m_s"; 3],
+            variance: "innov.rho_dot_s",
+        }),
+    ],
+};
+
+impl Innovation {
+    /// Names for columns, without unit.
+    pub fn columns(&self) -> [String; 3] {
+        self.names.map(|name| name.replace(['.', '['], "_").replace(']', ""))
+    }
+}
+
+impl Frame {
+    /// What truth and filter call the quantities that are compared.
+    pub fn signals(self) -> &'static Signals {
+        match self {
+            Self::Inertial => &INERTIAL,
+            Self::Lvlh => &LVLH,
+        }
+    }
+}
+
+impl Axes {
+    /// Names for columns.
+    pub fn names(self) -> [&'static str; 3] {
+        match self {
+            Self::Rtn | Self::RtnRotating { .. } => ["r", "t", "n"],
+            Self::Lvlh => ["x", "y", "z"],
+        }
+    }
+
+    /// Matrix that turns the truth's axes into these: rows R, T, N with R along the target's position from the central
+    /// body, N along its angular momentum, and T to complete them.
+    ///
+    /// Position and velocity of the target are those of the chaser plus the relative ones. `None` without the chaser's
+    /// state or where position and velocity are parallel.
+    pub fn matrix(self, truth: &TruthSample) -> Option<Matrix3<f64>> {
+        match self {
+            Self::Lvlh => Some(Matrix3::identity()),
+            Self::Rtn => {
+                let (r, v) = target(truth)?;
+                rtn(&r, &v)
+            }
+            Self::RtnRotating {
+                body_x_m,
+                time_per_radian_s,
+            } => {
+                let (r, v) = target(truth)?;
+                let r = r - Vector3::x() * body_x_m;
+                // The inertial velocity is that in N plus the rotation's.
+                rtn(&r, &(v + Vector3::z().cross(&r) / time_per_radian_s))
+            }
+        }
+    }
+}
+
+/// Position and velocity of the target; `None` without the chaser's.
+fn target(truth: &TruthSample) -> Option<(Vector3<f64>, Vector3<f64>)> {
+    let (r_c, v_c) = truth.chaser?;
+    Some((r_c + truth.position, v_c + truth.velocity))
+}
+
+fn rtn(r: &Vector3<f64>, v: &Vector3<f64>) -> Option<Matrix3<f64>> {
+    let radial = r.try_normalize(0.0)?;
+    let normal = r.cross(v).try_normalize(0.0)?;
+    let transverse = normal.cross(&radial);
+    Some(Matrix3::from_rows(&[
+        radial.transpose(),
+        transverse.transpose(),
+        normal.transpose(),
+    ]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A target on the x axis that moves along y and a bit outwards: R = x, T = y, N = z.
+    #[test]
+    fn rtn_of_a_case_worked_by_hand() {
+        let mut truth = TruthSample {
+            position: Vector3::new(1.0, 0.0, 0.0),
+            velocity: Vector3::new(0.0, 1.0, 0.0),
+            chaser: Some((Vector3::new(6.0, 0.0, 0.0), Vector3::new(0.5, 2.0, 0.0))),
+            ..TruthSample::default()
+        };
+        assert!((Axes::Rtn.matrix(&truth).unwrap() - Matrix3::identity()).amax() < 1e-15);
+        truth.velocity = Vector3::new(0.0, -2.0, 0.0);
+        assert!(Axes::Rtn.matrix(&truth).is_none());
+        // At rest in axes that turn, 3 m beside a body at x = 4: it moves along y all the same.
+        let rotating = Axes::RtnRotating {
+            body_x_m: 4.0,
+            time_per_radian_s: 10.0,
+        };
+        assert!((rotating.matrix(&truth).unwrap() - Matrix3::identity()).amax() < 1e-15);
+        truth.chaser = None;
+        assert!(Axes::Rtn.matrix(&truth).is_none() && rotating.matrix(&truth).is_none());
+        assert_eq!(Axes::Lvlh.matrix(&truth), Some(Matrix3::identity()));
+    }
+}

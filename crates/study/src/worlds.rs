@@ -1,0 +1,253 @@
+//! Worlds from missions: those that come with the project, by name, and anybody's file.
+
+use std::path::{Path, PathBuf};
+
+use interface::mission::{self, Document, Mission, ResultAxes, embedded};
+
+use crate::arguments::{Assignment, FilterChoice};
+use crate::error::StudyError;
+use crate::world::{Axes, Frame, World};
+
+/// Name under which `--set` addresses the mission itself.
+pub const MISSION: &str = "mission";
+
+/// Every world that the FMUs' `scenario` enumeration knows, in its order.
+///
+/// # Errors
+/// None for the missions as they come: a test reads each.
+pub fn all() -> Result<Vec<World>, StudyError> {
+    mission::Embedded::scenarios().map(|entry| find(entry.name)).collect()
+}
+
+/// The world of this name among the missions that come with the project.
+///
+/// # Errors
+/// [`StudyError::Mission`], with the names that exist.
+pub fn find(name: &str) -> Result<World, StudyError> {
+    World::of(embedded(name)?.mission()?)
+}
+
+/// Where a mission comes from, and what is to be changed in it.
+pub(crate) struct Source<'a> {
+    /// A file, or the name of one that comes with the project.
+    pub(crate) from: From<'a>,
+    /// What a plan sets; only what concerns the mission is read.
+    pub(crate) assignments: &'a [Assignment],
+    /// Folder for the file of a mission that is changed or that the FMUs do not know by name.
+    pub(crate) folder: &'a Path,
+}
+
+/// A mission's place.
+#[derive(Clone, Copy)]
+pub(crate) enum From<'a> {
+    Name(&'a str),
+    File(&'a Path),
+}
+
+impl Source<'_> {
+    /// The world. A mission that is changed, or that the FMUs do not know by name, stands in a file for them afterwards.
+    pub(crate) fn world(&self) -> Result<World, StudyError> {
+        let (mut document, known) = match self.from {
+            From::Name(name) => {
+                let entry = embedded(name)?;
+                (Document::parse(&format!("{name}.toml"), entry.text)?, entry.scenario)
+            }
+            From::File(path) => (Document::read(path)?, false),
+        };
+        let own = self.assignments.iter().filter(|a| a.model == MISSION);
+        let mut changed = false;
+        for assignment in own {
+            document.set(&assignment.variable, &assignment.value)?;
+            changed = true;
+        }
+        let mut mission = document.mission()?;
+        let mission_file = match self.from {
+            From::File(path) if !changed => {
+                Some(std::path::absolute(path).map_err(|source| StudyError::MissionFile {
+                    path: path.to_owned(),
+                    source,
+                })?)
+            }
+            _ if changed || !known => Some(self.write(&mut document, &mission.name)?),
+            _ => None,
+        };
+        // The FMU's parameter is the period of every sensor that has none of its own.
+        let period = |a: &&Assignment| a.model == crate::models::TRUTH && a.variable == "sample_period";
+        if let Some(period) = self.assignments.iter().rfind(period)
+            && let Ok(value) = period.value.parse::<f64>()
+            && value > 0.0
+        {
+            mission.time.sample_period_s = value;
+        }
+        Ok(World {
+            mission_file,
+            ..World::of(mission)?
+        })
+    }
+
+    fn write(&self, document: &mut Document, name: &str) -> Result<PathBuf, StudyError> {
+        document.make_paths_absolute()?;
+        let folder = self.folder.join("missions");
+        let path = folder.join(format!("{name}.toml"));
+        let written = std::fs::create_dir_all(&folder)
+            .and_then(|()| std::fs::write(&path, document.text()))
+            .and_then(|()| std::path::absolute(&path));
+        written.map_err(|source| StudyError::MissionFile { path, source })
+    }
+}
+
+impl World {
+    /// A world as a study sees it.
+    ///
+    /// # Errors
+    /// [`StudyError::Filters`] for a filter of the mission that is no `NAME` or `NAME@PRESET`.
+    pub fn of(mission: Mission) -> Result<Self, StudyError> {
+        let told = mission.navigation();
+        let frame = match told.frame {
+            mission::Frame::Inertial => Frame::Inertial,
+            mission::Frame::Lvlh => Frame::Lvlh,
+        };
+        let axes = match (mission.study.axes, frame, mission.environment.gravity.cr3bp()) {
+            // The state in LVLH axes is given in them.
+            (_, Frame::Lvlh, _) => Axes::Lvlh,
+            (_, Frame::Inertial, Some(problem)) => Axes::RtnRotating {
+                body_x_m: (1.0 - problem.mass_ratio) * problem.length_m,
+                time_per_radian_s: problem.time_s,
+            },
+            (Some(ResultAxes::Rtn | ResultAxes::Lvlh) | None, Frame::Inertial, None) => Axes::Rtn,
+        };
+        let rows = [
+            told.lidar.map(|_| 3),
+            told.camera.map(|_| 2),
+            told.radio.map(|_| 2),
+            told.metrology.map(|_| 6),
+        ];
+        let filters = mission.study.filters.iter().map(|label| {
+            label.parse::<FilterChoice>().map_err(|problem| StudyError::Filters {
+                mission: mission.name.clone(),
+                problem,
+            })
+        });
+        Ok(Self {
+            name: mission.name.clone(),
+            about: mission.about.clone(),
+            reference: mission.reference.clone(),
+            duration_s: mission.time.duration_s,
+            scored_from_s: mission.time.scored_from_s,
+            sample_period_s: grid(&periods(&mission)),
+            frame,
+            axes,
+            nis_rows: rows.iter().flatten().sum(),
+            filters: filters.collect::<Result<_, _>>()?,
+            notes: mission.notes(),
+            mission_file: None,
+            mission,
+        })
+    }
+}
+
+/// Time between the samples of each sensor on board, s.
+fn periods(mission: &Mission) -> Vec<f64> {
+    let sensors = &mission.sensors;
+    [
+        sensors.lidar.map(|s| s.period_s),
+        sensors.camera.map(|s| s.period_s),
+        sensors.radio.map(|s| s.period_s),
+        sensors.metrology.map(|s| s.period_s),
+        sensors.accelerometer.map(|s| s.period_s),
+    ]
+    .into_iter()
+    .flatten()
+    .map(|own| own.unwrap_or(mission.time.sample_period_s))
+    .collect()
+}
+
+/// The longest time of which every period is a whole multiple, to a microsecond; the shortest period where there is none.
+fn grid(periods: &[f64]) -> f64 {
+    let ticks: Vec<u64> = periods.iter().map(|p| (p * 1e6).round() as u64).collect();
+    let shortest = periods.iter().copied().fold(f64::INFINITY, f64::min);
+    let whole = ticks
+        .iter()
+        .zip(periods)
+        .all(|(t, p)| (*t as f64 / 1e6 - p).abs() < 1e-9);
+    let common = ticks.iter().copied().fold(0, gcd);
+    if whole && common >= 1000 {
+        // An equal period keeps its digits.
+        let found = common as f64 / 1e6;
+        if (found - shortest).abs() < 1e-12 {
+            shortest
+        } else {
+            found
+        }
+    } else {
+        shortest
+    }
+}
+
+fn gcd(a: u64, b: u64) -> u64 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use interface::mission::EMBEDDED;
+
+    #[test]
+    fn every_mission_of_the_project_is_found_by_its_name_and_scores_something() {
+        for entry in EMBEDDED {
+            let world = find(entry.name).unwrap();
+            assert_eq!(world.name, entry.name);
+            assert!(world.scored_from_s < world.duration_s, "{}", world.name);
+            assert_eq!(world.filters.len(), world.mission.study.filters.len());
+            assert!((world.sample_period_s - 1.0).abs() < 1e-15);
+        }
+        assert_eq!(all().unwrap().len(), 3);
+        let error = find("leo_vent").unwrap_err().to_string();
+        assert!(error.contains("leo_vent") && error.contains("leo_venting"), "{error}");
+    }
+
+    #[test]
+    fn samples_lie_on_the_longest_common_grid() {
+        for (periods, expected) in [
+            (vec![1.0, 1.0], 1.0),
+            (vec![2.0, 10.0], 2.0),
+            (vec![0.02, 0.2], 0.02),
+            (vec![2.0, 3.0], 1.0),
+            (vec![1.0 / 3.0], 1.0 / 3.0),
+        ] {
+            assert!(
+                (grid(&periods) - expected).abs() < 1e-12,
+                "{periods:?}: {}",
+                grid(&periods)
+            );
+        }
+    }
+
+    #[test]
+    fn a_changed_mission_stands_in_a_file_for_the_fmus() {
+        let folder = tempfile::tempdir().unwrap();
+        let world = |assignments: &[&str], from| {
+            let assignments: Vec<Assignment> = assignments.iter().map(|a| a.parse().unwrap()).collect();
+            let source = Source {
+                from,
+                assignments: &assignments,
+                folder: folder.path(),
+            };
+            source.world()
+        };
+        let plain = world(&["fmu-truth.vent.scale=10"], From::Name("leo_venting")).unwrap();
+        assert_eq!(plain.mission_file, None);
+        let changed = world(&["mission.vent.co2.period_s=300"], From::Name("leo_venting")).unwrap();
+        let file = changed.mission_file.unwrap();
+        assert_eq!(Mission::read(&file).unwrap().vents[0].period_s, Some(300.0));
+        let same = world(&[], From::File(&file)).unwrap();
+        assert_eq!(same.mission_file.as_deref(), Some(file.as_path()));
+        let twin = world(&[], From::Name("formation_j2")).unwrap();
+        assert!(twin.mission_file.is_some(), "no item of the enumeration");
+        let slow = world(&["fmu-truth.sample_period=3"], From::Name("leo_venting")).unwrap();
+        assert!((slow.sample_period_s - 3.0).abs() < 1e-15 && !slow.notes.is_empty());
+        let error = world(&["mission.vent.oxygen.count=2"], From::Name("leo_venting")).unwrap_err();
+        assert!(error.to_string().contains("co2, waste_water"), "{error}");
+    }
+}

@@ -1,0 +1,84 @@
+//! The files of finished studies.
+
+use study::{Models, Plan, Study, StudyResult, Summary};
+
+use crate::HarnessError;
+use crate::output::OutputFolder;
+use crate::report::manifest::{Manifest, StudyFacts};
+use crate::report::measured::measured;
+use crate::report::runs::Named;
+use crate::report::timing::TimingRow;
+use crate::report::{epochs, runs, summary, timing};
+
+/// All results of the command, ready to be written.
+pub(super) struct Report<'a> {
+    pub(super) studies: &'a [Study],
+    pub(super) results: &'a [StudyResult],
+    pub(super) rows: Vec<Summary>,
+    pub(super) timings: Vec<TimingRow>,
+}
+
+impl<'a> Report<'a> {
+    pub(super) fn new(studies: &'a [Study], results: &'a [StudyResult]) -> Self {
+        let mut rows = Vec::new();
+        let mut timings = Vec::new();
+        for (study, result) in studies.iter().zip(results) {
+            let (summary, cost) = measured(study, result);
+            rows.extend(summary);
+            timings.extend(cost);
+        }
+        Self {
+            studies,
+            results,
+            rows,
+            timings,
+        }
+    }
+
+    /// Writes every file and what else the command has; `manifest.json` last, so that it stands for a complete set.
+    ///
+    /// * `plan`: what the studies are part of.
+    /// * `written`: studies, from the first, whose `epochs` files are in the folder already.
+    /// * returns: names of all files.
+    pub(super) fn write(
+        &self,
+        folder: &OutputFolder,
+        models: &Models,
+        plan: &Plan,
+        written: usize,
+        more: Vec<(String, Vec<u8>)>,
+    ) -> Result<Vec<String>, HarnessError> {
+        let named: Vec<Named<'_>> = self
+            .studies
+            .iter()
+            .zip(self.results)
+            .map(|(study, result)| Named {
+                spec: &study.spec,
+                case: &study.case,
+                filters: &result.filters,
+            })
+            .collect();
+        let mut files = folder.write_all(vec![
+            ("summary.csv".to_owned(), summary::render(&self.rows)?),
+            ("paired.csv".to_owned(), runs::render_paired(&named)?),
+            ("runs.csv".to_owned(), runs::render_runs(&named)?),
+            ("failures.csv".to_owned(), runs::render_failures(&named)?),
+            ("timing.csv".to_owned(), timing::render(&self.timings)?),
+        ])?;
+        for (index, study) in named.iter().enumerate() {
+            for filter in study.filters {
+                let name = format!("epochs/{}_{}_{}.csv", study.spec.world.name, filter.label, study.case);
+                // Written as they are rendered: together they take more room than the results they show.
+                if index >= written {
+                    folder.write(&name, &epochs::render(study.spec, filter)?)?;
+                }
+                files.push(name);
+            }
+        }
+        files.extend(folder.write_all(more)?);
+        let wall = self.results.iter().map(|r| r.wall).sum();
+        let studies = self.studies.iter().map(|s| StudyFacts::new(plan, s)).collect();
+        Manifest::new(models, studies, plan.threads(), wall).write(folder, &mut files)?;
+        Ok(files)
+    }
+}

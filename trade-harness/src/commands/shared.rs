@@ -1,0 +1,131 @@
+//! What several commands need.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use study::{Models, NAV, OwnFmus, Plan, TRUTH};
+
+use crate::HarnessError;
+use crate::cli::{BuildArgs, StudyArgs, WorkArgs, WorldArgs};
+use crate::output::OutputFolder;
+use crate::pack::{default_folder, fmu_path};
+use crate::report::manifest::peak_memory_mib;
+use crate::tuning::sets::TunedFile;
+
+/// How a command that could do its work ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Verdict {
+    Done,
+    BoundsMissed,
+}
+
+/// A line on stderr. Nobody can be told when that fails.
+pub(super) fn note(text: &str) {
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
+/// A line on the output.
+pub(super) fn say(out: &mut dyn Write, text: &str) -> Result<(), HarnessError> {
+    writeln!(out, "{text}").map_err(|source| HarnessError::Write {
+        path: "the output".into(),
+        source,
+    })
+}
+
+/// The last lines of a study: what it took, how to repeat it and where its results are.
+pub(super) fn closing(folder: &OutputFolder, files: &[String], out: &mut dyn Write) -> Result<(), HarnessError> {
+    if let Some(peak) = peak_memory_mib() {
+        say(out, &format!("Memory:  {peak:.0} MiB at most"))?;
+    }
+    let line: Vec<String> = std::env::args().skip(1).collect();
+    say(out, &format!("Command: trade-harness {}", line.join(" ")))?;
+    let path = |name: &String| folder.path().join(name).display().to_string();
+    let shown: Vec<String> = files.iter().map(path).collect();
+    say(out, &format!("Files:   {}", shown.join("\n         ")))
+}
+
+/// Paths of our FMUs that are needed, built and packed unless that is not wanted.
+pub(super) fn own_fmus(args: &BuildArgs, needed: &[&str]) -> Result<Vec<PathBuf>, HarnessError> {
+    let folder = args.fmu_dir.clone().unwrap_or_else(|| default_folder(&args.workspace));
+    if !args.no_build && !needed.is_empty() {
+        crate::pack::pack(&args.workspace, &folder, None, args.quiet)?;
+    }
+    let existing = |name: &&str| {
+        let path = fmu_path(&folder, name);
+        if path.is_file() {
+            Ok(path)
+        } else {
+            Err(HarnessError::NoFmu { path })
+        }
+    };
+    needed.iter().map(existing).collect()
+}
+
+/// A folder for files that no one keeps.
+///
+/// # Errors
+/// When the system has no room for one.
+pub(super) fn scratch() -> Result<tempfile::TempDir, HarnessError> {
+    tempfile::tempdir().map_err(|source| HarnessError::Write {
+        path: std::env::temp_dir(),
+        source,
+    })
+}
+
+/// The plan of a command line, of which worlds, runs and case are the command's own.
+///
+/// # Errors
+/// A file of tuned sets that is none.
+pub(super) fn plan(study: &StudyArgs) -> Result<Plan, HarnessError> {
+    let chosen = study.filters.iter().filter_map(|f| f.0.clone());
+    let tuned = match &study.tuned {
+        Some(path) => TunedFile::read(path)?.sets,
+        None => Vec::new(),
+    };
+    Ok(Plan {
+        filters: (!study.filters.is_empty()).then(|| chosen.collect()),
+        seed: study.seed,
+        step_s: study.step,
+        scheme: study.scheme.into(),
+        assignments: study.assignments.clone(),
+        variations: study.variations.clone(),
+        truth: study.truth.clone(),
+        foreign: study.foreign.clone(),
+        mappings: study.mappings.clone(),
+        tuned,
+        ..Plan::default()
+    })
+}
+
+/// The same with worlds and work.
+///
+/// # Errors
+/// As for [`plan`].
+pub(super) fn plan_of(study: &StudyArgs, worlds: &WorldArgs, work: &WorkArgs) -> Result<Plan, HarnessError> {
+    Ok(Plan {
+        scenarios: worlds.named(),
+        missions: worlds.missions.clone(),
+        runs: work.runs,
+        jobs: work.jobs,
+        ..plan(study)?
+    })
+}
+
+/// The FMUs that a plan names; ours are built and packed first, unless that is not wanted.
+///
+/// # Errors
+/// Building, packing and opening.
+pub(super) fn models(plan: &Plan, build: &BuildArgs) -> Result<Models, HarnessError> {
+    plan.check()?;
+    let [truth, nav] = plan.needs();
+    let needed: Vec<&str> = [(truth, TRUTH), (nav, NAV)]
+        .into_iter()
+        .filter_map(|(needed, name)| needed.then_some(name))
+        .collect();
+    let mut paths = own_fmus(build, &needed)?.into_iter();
+    let own = OwnFmus {
+        truth: if truth { paths.next() } else { None },
+        nav: paths.next(),
+    };
+    Ok(Models::of(plan, &own)?)
+}

@@ -1,0 +1,41 @@
+//! The documentation of every CSV file, from the lists that write them.
+
+use super::column::FileColumns;
+use super::{best, runs, searched, summary, timing};
+
+/// The columns of every file that has the same ones in each study.
+pub fn all() -> Vec<FileColumns> {
+    vec![
+        FileColumns::new("summary.csv", "a world, filter and case", summary::COLUMNS),
+        FileColumns::new("runs.csv", "a run of a filter", runs::RUNS),
+        FileColumns::new(
+            "paired.csv",
+            "a filter and a quantity, in the runs it shares with the first filter",
+            runs::PAIRED,
+        ),
+        FileColumns::new("failures.csv", "a run without a result", runs::FAILURES),
+        FileColumns::new("timing.csv", "a world, filter and case", timing::COLUMNS),
+        FileColumns::new("best.csv", "a filter at its own best, by tune", best::COLUMNS),
+        FileColumns::new("search.csv", "a candidate of a search, by tune", searched::COLUMNS),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_column_has_a_name_of_its_own_and_a_meaning() {
+        for file in all() {
+            let mut names: Vec<&str> = file.columns.iter().map(|[name, ..]| *name).collect();
+            names.sort_unstable();
+            names.dedup();
+            assert_eq!(names.len(), file.columns.len(), "{}", file.file);
+            assert!(
+                file.columns.iter().all(|[_, _, meaning]| !meaning.is_empty()),
+                "{}",
+                file.file
+            );
+        }
+    }
+}
