@@ -1,14 +1,13 @@
 //! The adapter: what FMI asks of a slave, answered by its [`Navigator`].
 
-use crate::slave::{NavModel, sample};
+use crate::slave::NavModel;
 use crate::variables;
 use filters::laws::FILTERS;
-use filters::scenarios::{Measures, SCENARIOS};
 use filters::state::State;
-use filters::{FilterError, Navigator, Settings};
+use filters::{Navigator, Sample, Settings};
 use fmi2_export::{Experiment, Log, Model, ModelError, ModelInfo, Table, VendorAnnotation};
 use interface::annotation::{self, Filters, Only, Preset, Search, Set};
-use interface::mission::{Choice, Embedded, packed_guid};
+use interface::mission::{Choice, Embedded, Frame, packed_guid};
 use interface::{Signals, Status};
 use std::path::Path;
 use std::sync::OnceLock;
@@ -56,12 +55,7 @@ impl Model for NavModel {
 
     fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError> {
         let navigation = self.choice.mission()?.navigation();
-        let scenario = SCENARIOS.iter().position(|s| s.name == navigation.mission);
-        self.settings.scenario = scenario.ok_or_else(|| FilterError::UnknownScenario {
-            name: navigation.mission.clone(),
-            known: SCENARIOS.iter().map(|s| s.name).collect::<Vec<_>>().join(", "),
-        })?;
-        self.navigator = Some(Navigator::new(&self.settings, experiment.start_time)?);
+        self.navigator = Some(Navigator::new(&navigation, &self.settings, experiment.start_time)?);
         log.event(format_args!(
             "filter {} in mission {} starts at t = {} s",
             self.settings.filter()?.name,
@@ -80,18 +74,17 @@ impl Model for NavModel {
         if inputs.sample_count <= navigator.estimate().count {
             return Ok(());
         }
-        navigator.process(&sample(inputs), &State::from(inputs.nav_init))?;
+        navigator.process(&Sample::from(inputs), &State::from(inputs.nav_init))?;
         let now = navigator.status();
         if now != before {
             log.event(format_args!("at t = {} s: {}", inputs.sample_time, now.name()));
-            let other = match navigator.measures() {
-                Measures::RangeAndBearing => inputs.metrology.valid,
-                Measures::RelativeState => inputs.lidar.valid,
+            let other = match navigator.frame() {
+                Frame::Inertial => inputs.metrology.valid,
+                Frame::Lvlh => inputs.lidar.valid || inputs.camera.valid || inputs.radio.valid,
             };
             if now == Status::Coasting && other {
                 log.event(format_args!(
-                    "the sample holds a measurement that mission {} does not use: is the world in the same mission?",
-                    self.settings.scenario()?.name
+                    "the sample holds a measurement that this mission does not use: does the world fly the same mission?"
                 ));
             }
         }
@@ -124,15 +117,18 @@ fn annotated() -> Filters {
             low: search.low,
             high: search.high,
         }));
-        all.meanings.extend(filter.only.iter().map(|only| {
+        all.meanings.extend(filter.lvlh_alone().map(|why| {
+            let has_meaning = |entry: &&Embedded| {
+                let mission = entry.mission();
+                mission.is_ok_and(|mission| filter.no_meaning_in(&mission.navigation()).is_none())
+            };
             Only {
                 filter: filter.name.to_owned(),
-                scenarios: SCENARIOS
-                    .iter()
-                    .filter(|scenario| filter.no_meaning_in(scenario).is_none())
-                    .map(|scenario| scenario.name.to_owned())
+                scenarios: Embedded::scenarios()
+                    .filter(has_meaning)
+                    .map(|entry| entry.name.to_owned())
                     .collect(),
-                why: only.why.to_owned(),
+                why: why.to_owned(),
             }
         }));
     }

@@ -6,11 +6,10 @@
 use crate::beliefs::{BELIEFS, Belief, Place};
 use crate::slave::NavModel;
 use filters::laws::FILTERS;
-use filters::scenarios::Measures;
 use filters::tunable::{Kind, Tunable, Value};
-use filters::{Beliefs, Navigator};
+use filters::{Beliefs, Navigator, Sensor};
 use fmi2_export::{Real, Row, Table, TableBuilder};
-use interface::mission::Embedded;
+use interface::mission::{Embedded, Frame};
 use interface::ports::{Port, Role, Shape, of};
 use interface::signals::{Slot, slots};
 use interface::{Bound, Signals, Status};
@@ -193,7 +192,7 @@ fn tunable_row(t: &mut Builder, filter: &str, tunable: &Tunable, f: usize, i: us
     match tunable.kind {
         Kind::Real { start, unit, bound } => {
             let (get, set) = stored!(f, i, Real, 0.0);
-            real_parameter(t, &name, unit, bound, start, tunable.about).rw(get, set);
+            real_parameter(t, &name, unit, bound, start.fixed(), tunable.about).rw(get, set);
         }
         Kind::Integer { start, min, max } => {
             let (get, set) = stored!(f, i, Integer, 0);
@@ -285,6 +284,7 @@ fn estimates() -> impl Iterator<Item = (&'static Port, Shown)> {
 }
 
 fn shown(port: &Port) -> Option<Shown> {
+    use Sensor::{Camera, Lidar, Metrology, Radio};
     use Shown::{Boolean, Integer, Real, Status};
     Some(match port.name {
         "est.time" => Real(|n, _| n.estimate().time),
@@ -301,8 +301,14 @@ fn shown(port: &Port) -> Option<Shown> {
         "est.d_lvlh" => Real(|n, i| lvlh(n, n.estimate().x[6 + i])),
         "est.acceleration_valid" => Boolean(Navigator::estimates_acceleration),
         "nis" => Real(|n, _| n.innovation().nis),
-        // Rows with a covariance: none before the first measurement, none under a constant gain.
-        "nis.rows" => Integer(|n| n.innovation().variance.iter().filter(|v| **v > 0.0).count() as i32),
+        // None before the first measurement, and none of which there is a covariance under a constant gain.
+        "nis.rows" => Integer(|n| {
+            if n.dimension() > 0 {
+                n.innovation().rows as i32
+            } else {
+                0
+            }
+        }),
         "q.s" => Real(|n, i| n.s()[i]),
         "q.updates" => Integer(Navigator::updates),
         "q.skipped" => Integer(Navigator::skipped),
@@ -310,30 +316,39 @@ fn shown(port: &Port) -> Option<Shown> {
         "status" => Status,
         "cov.sigma" => Real(|n, i| n.estimate().sigma[i]),
         "cov.p" => Real(|n, i| n.estimate().p_target[(i / 9, i % 9)]),
-        "innov.range" => Real(|n, _| inertial(n, n.innovation().residual[0])),
-        "innov.azimuth" => Real(|n, _| inertial(n, n.innovation().residual[1])),
-        "innov.elevation" => Real(|n, _| inertial(n, n.innovation().residual[2])),
-        "innov.s" => Real(|n, i| inertial(n, n.innovation().variance[i])),
-        "innov.rho" => Real(|n, i| lvlh(n, n.innovation().residual[i])),
-        "innov.rho_s" => Real(|n, i| lvlh(n, n.innovation().variance[i])),
-        "innov.rho_dot" => Real(|n, i| lvlh(n, n.innovation().residual[3 + i])),
-        "innov.rho_dot_s" => Real(|n, i| lvlh(n, n.innovation().variance[3 + i])),
+        "innov.range" => Real(|n, _| n.innovation().residual[channel(Lidar)]),
+        "innov.azimuth" => Real(|n, _| n.innovation().residual[channel(Lidar) + 1]),
+        "innov.elevation" => Real(|n, _| n.innovation().residual[channel(Lidar) + 2]),
+        "innov.s" => Real(|n, i| n.innovation().variance[channel(Lidar) + i]),
+        "innov.rho" => Real(|n, i| n.innovation().residual[channel(Metrology) + i]),
+        "innov.rho_s" => Real(|n, i| n.innovation().variance[channel(Metrology) + i]),
+        "innov.rho_dot" => Real(|n, i| n.innovation().residual[channel(Metrology) + 3 + i]),
+        "innov.rho_dot_s" => Real(|n, i| n.innovation().variance[channel(Metrology) + 3 + i]),
+        "innov.camera" => Real(|n, i| n.innovation().residual[channel(Camera) + i]),
+        "innov.camera_s" => Real(|n, i| n.innovation().variance[channel(Camera) + i]),
+        "innov.radio" => Real(|n, i| n.innovation().residual[channel(Radio) + i]),
+        "innov.radio_s" => Real(|n, i| n.innovation().variance[channel(Radio) + i]),
         _ => return None,
     })
 }
 
+/// First place of a sensor in an innovation.
+fn channel(sensor: Sensor) -> usize {
+    sensor.channels().start
+}
+
 /// `value` of a filter whose state stands in axes N, else 0.
 fn inertial(navigator: &Navigator, value: f64) -> f64 {
-    of_frame(navigator, Measures::RangeAndBearing, value)
+    of_frame(navigator, Frame::Inertial, value)
 }
 
 /// `value` of a filter whose state stands in the target's LVLH axes, else 0.
 fn lvlh(navigator: &Navigator, value: f64) -> f64 {
-    of_frame(navigator, Measures::RelativeState, value)
+    of_frame(navigator, Frame::Lvlh, value)
 }
 
-fn of_frame(navigator: &Navigator, measures: Measures, value: f64) -> f64 {
-    if navigator.measures() == measures { value } else { 0.0 }
+fn of_frame(navigator: &Navigator, frame: Frame, value: f64) -> f64 {
+    if navigator.frame() == frame { value } else { 0.0 }
 }
 
 fn estimate_row(t: &mut Builder, port: &'static Port, shown: Shown) {
@@ -505,10 +520,10 @@ mod tests {
             ("est.rho_dot_lvlh[1]", estimate.x[3]),
             ("est.d_lvlh[3]", estimate.x[8]),
             ("innov.range", 0.0),
-            ("innov.rho[1]", innovation.residual[0]),
-            ("innov.rho_s[3]", innovation.variance[2]),
-            ("innov.rho_dot[2]", innovation.residual[4]),
-            ("innov.rho_dot_s[1]", innovation.variance[3]),
+            ("innov.rho[1]", innovation.residual[7]),
+            ("innov.rho_s[3]", innovation.variance[9]),
+            ("innov.rho_dot[2]", innovation.residual[11]),
+            ("innov.rho_dot_s[1]", innovation.variance[10]),
         ];
         for (name, value) in expected {
             assert_eq!(real(&model, name).to_bits(), value.to_bits(), "{name}");

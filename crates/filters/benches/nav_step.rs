@@ -11,15 +11,14 @@ mod common;
 #[path = "../tests/formation/mod.rs"]
 mod formation;
 
-use common::OwnWorld;
+use common::{OwnWorld, navigation};
 use criterion::{Bencher, Criterion, criterion_group, criterion_main};
-use filters::laws::{Adaptation, FILTERS, FilterEntry, Law, Setup, Step};
-use filters::scenarios::{Measures, SCENARIOS};
-use filters::state::{Rows, State, Target, TargetMatrix};
+use filters::laws::{Adaptation, FILTERS, Law, Setup, Step};
+use filters::state::{RowVector, Rows, State, TargetMatrix};
 use filters::tunable::{Tunable, Tunables, Value};
-use filters::{Navigator, Sample, Settings, Units};
+use filters::{Layout, Navigation, Navigator, Sample, Sensor, Settings, Units};
 use formation::{Formation, World};
-use nalgebra::{Matrix3, Vector6};
+use nalgebra::Matrix3;
 use numerics::{Source, stream};
 use rand_distr::{Distribution, StandardNormal};
 use std::hint::black_box;
@@ -38,18 +37,18 @@ fn samples_in_formation() -> (Vec<Sample>, State) {
 }
 
 /// Reports the mean time of a step rather than that of a run.
-fn per_step(b: &mut Bencher<'_>, settings: &Settings, samples: &[Sample], start: &State) {
+fn per_step(b: &mut Bencher<'_>, told: &Navigation, settings: &Settings, samples: &[Sample], start: &State) {
     b.iter_custom(|iterations| {
         let clock = Instant::now();
         for _ in 0..iterations {
-            black_box(run(black_box(settings), samples, start));
+            black_box(run(told, black_box(settings), samples, start));
         }
         clock.elapsed() / STEPS
     });
 }
 
-fn run(settings: &Settings, samples: &[Sample], start: &State) -> f64 {
-    let mut nav = Navigator::new(settings, 0.0).expect("default settings are valid");
+fn run(told: &Navigation, settings: &Settings, samples: &[Sample], start: &State) -> f64 {
+    let mut nav = Navigator::new(told, settings, 0.0).expect("default settings are valid");
     for sample in samples {
         nav.process(sample, start).expect("the filter survives its own world");
     }
@@ -65,23 +64,20 @@ fn benches(c: &mut Criterion) {
         ("leo_venting", &samples, &start),
         ("formation", &in_formation.0, &in_formation.1),
     ] {
-        let scenario = SCENARIOS
-            .iter()
-            .position(|s| s.name == scenario)
-            .expect("the scenario is registered");
+        let told = navigation(scenario);
         for (filter, entry) in FILTERS.iter().enumerate() {
-            if entry.no_meaning_in(&SCENARIOS[scenario]).is_some() {
+            if entry.no_meaning_in(&told).is_some() {
                 continue;
             }
             let settings = Settings {
-                scenario,
                 filter,
                 ..Settings::default()
             };
-            let name = format!("{} in {}", entry.name, SCENARIOS[scenario].name);
-            group.bench_function(name, |b| per_step(b, &settings, samples, start));
+            let name = format!("{} in {}", entry.name, scenario);
+            group.bench_function(name, |b| per_step(b, &told, &settings, samples, start));
         }
     }
+    let told = navigation("leo_venting");
     for neurons in [1, 60, 240] {
         let mut settings = Settings {
             filter: position("rbfnn_ekf"),
@@ -91,7 +87,7 @@ fn benches(c: &mut Criterion) {
             *value = Value::Integer(neurons);
         }
         group.bench_function(format!("rbfnn_ekf neurons={neurons}"), |b| {
-            per_step(b, &settings, &samples, &start)
+            per_step(b, &told, &settings, &samples, &start)
         });
     }
     for m_b in [3, 10, 30, 60] {
@@ -104,7 +100,7 @@ fn benches(c: &mut Criterion) {
             *value = Value::Integer(m_b);
         }
         group.bench_function(format!("milton m_b={m_b}"), |b| {
-            per_step(b, &settings, &samples, &start)
+            per_step(b, &told, &settings, &samples, &start)
         });
     }
     for shape in [0, 1] {
@@ -124,7 +120,7 @@ fn benches(c: &mut Criterion) {
         }
         let name = ["diagonal", "full"][shape];
         group.bench_function(format!("constrained_q {name}"), |b| {
-            per_step(b, &settings, &samples, &start)
+            per_step(b, &told, &settings, &samples, &start)
         });
     }
     group.finish();
@@ -134,7 +130,7 @@ fn benches(c: &mut Criterion) {
     for rows in [3, 6] {
         let steps = steps(rows);
         for (name, shape) in [("milton", 0), ("constrained_q", 0), ("constrained_q full", 1)] {
-            let fresh = law(&FILTERS[position(name.trim_end_matches(" full"))], rows, shape);
+            let fresh = law(position(name.trim_end_matches(" full")), rows, shape);
             group.bench_function(format!("{name} {rows} rows"), |b| law_per_step(b, &fresh, &steps));
         }
     }
@@ -158,18 +154,19 @@ fn steps(rows: usize) -> Vec<Step> {
     f.fixed_view_mut::<3, 3>(3, 6).copy_from(&i);
     f.fixed_view_mut::<3, 3>(0, 6).copy_from(&half);
     (0..STEPS)
-        .map(|_| Step {
-            dt: 1.0,
-            f,
-            h: Rows::from_fn(|row, state| f64::from(row < rows && row == state)),
-            innovation: Vector6::from_fn(|row, _| if row < rows { normal() } else { 0.0 }),
-            correction: Target::zeros(),
+        .map(|_| {
+            let mut step = Step::blank(1.0, f);
+            step.measured.mark(0..rows);
+            step.h = Rows::from_fn(|row, state| f64::from(row < rows && row == state));
+            step.innovation = RowVector::from_fn(|row, _| if row < rows { normal() } else { 0.0 });
+            step
         })
         .collect()
 }
 
 /// A law for rows of unit noise; `shape` is that of constrained_q.
-fn law(entry: &'static FilterEntry, rows: usize, shape: usize) -> Law {
+fn law(filter: usize, rows: usize, shape: usize) -> Law {
+    let (entry, told) = (&FILTERS[filter], navigation("leo_venting"));
     let value = |t: &Tunable| match t.name {
         "r_w" => Value::Real(1.0),
         "q_w" => Value::Real(1e-5),
@@ -185,22 +182,17 @@ fn law(entry: &'static FilterEntry, rows: usize, shape: usize) -> Law {
             law: entry.name,
             declared: entry.tunables,
             values: &values,
-            scenario: "none",
-            defaults: &[],
+            told: &told,
         },
-        rows,
-        r: Vector6::from_fn(|row, _| f64::from(row < rows)),
-        measures: if rows == 3 {
-            Measures::RangeAndBearing
-        } else {
-            Measures::RelativeState
-        },
+        layout: Layout::new(&[if rows == 3 { Sensor::Lidar } else { Sensor::Metrology }]),
+        r: RowVector::from_fn(|row, _| f64::from(row < rows)),
+        state_measured: rows == 6,
         units: Units::SI,
         off_nominal: 1.0,
         study_seed: 1,
         run: 0,
     };
-    (entry.build)(&setup).expect("the tuning is legal")
+    Law::new(filter, &setup).expect("the tuning is legal")
 }
 
 fn law_per_step(b: &mut Bencher<'_>, fresh: &Law, steps: &[Step]) {
@@ -209,7 +201,7 @@ fn law_per_step(b: &mut Bencher<'_>, fresh: &Law, steps: &[Step]) {
         for _ in 0..iterations {
             let mut law = fresh.clone();
             for step in steps {
-                law.observe(step.clone()).expect("the law learns from noise");
+                law.observe(step).expect("the law learns from noise");
             }
             black_box(law.s());
         }

@@ -1,11 +1,15 @@
-//! What a filter believes of the world, apart from its law: all SI, never read from the truth.
+//! What a filter believes of the world, apart from its law: the mission's values but for those that a user sets.
 
+use crate::error::FilterError;
+use interface::Bound::{Any, NonNegative, Positive};
+use interface::mission::{Frame, Gravity};
+use interface::{Bound, Navigation};
 use serde::{Deserialize, Serialize};
 
-/// Tuning that all laws share. A value of [`Beliefs::OWN`] means "the scenario's own".
+/// Tuning that all laws share, SI. A value of [`Beliefs::OWN`] means "the mission's own".
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Beliefs {
-    /// Initial standard deviation of one vehicle's position, or of the relative one where that is measured in full, m.
+    /// Initial standard deviation of one vehicle's position, or of the relative one in the LVLH frame, m.
     pub p0_sigma_position: f64,
     /// Initial standard deviation of one vehicle's velocity, or of the relative one likewise, m/s.
     pub p0_sigma_velocity: f64,
@@ -23,9 +27,9 @@ pub struct Beliefs {
     pub accelerometer_beta: f64,
     /// Standard deviation of the bias walk per 1 s, m/s2.
     pub accelerometer_bias_sigma: f64,
-    /// Standard deviation of the range, m.
+    /// Standard deviation of the LiDAR's range, m.
     pub r_sigma_range: f64,
-    /// Standard deviation of azimuth and elevation, rad.
+    /// Standard deviation of the LiDAR's azimuth and elevation, rad.
     pub r_sigma_angle: f64,
     /// Standard deviation of an accelerometer sample, m/s2.
     pub r_sigma_accelerometer: f64,
@@ -38,9 +42,9 @@ pub struct Beliefs {
     /// Factor on the process noise that a law has (that it starts from, if it adapts) or on an observer's gain: 1 unless
     /// mistuning is studied.
     pub off_nominal: f64,
-    /// Zonal gravity: gravitational parameter, m3/s2.
+    /// Two-body and zonal gravity: gravitational parameter, m3/s2.
     pub gravity_mu: f64,
-    /// Zonal gravity: reference radius, m.
+    /// Two-body and zonal gravity: reference radius, m.
     pub gravity_radius: f64,
     /// Zonal gravity: J2, J3, J4.
     pub gravity_j: [f64; 3],
@@ -53,14 +57,13 @@ pub struct Beliefs {
 }
 
 impl Beliefs {
-    /// Stands for "the scenario's own value".
+    /// Stands for "the mission's own value".
     pub const OWN: f64 = -1.0;
 }
 
 impl Default for Beliefs {
-    /// Values of Mamich and Zanetti, Sec. IV; those that differ between scenarios are [`Beliefs::OWN`].
+    /// Everything is the mission's own.
     fn default() -> Self {
-        let [j2, j3, j4, ..] = astro::earth::FILTER.j;
         Self {
             p0_sigma_position: Self::OWN,
             p0_sigma_velocity: Self::OWN,
@@ -68,22 +71,169 @@ impl Default for Beliefs {
             p0_sigma_bias: Self::OWN,
             chaser_q_c: Self::OWN,
             chaser_q_coupled: true,
-            accelerometer_gate: 1e-4,
-            accelerometer_beta: 1.0 / 3600.0,
-            accelerometer_bias_sigma: 3.433e-8,
-            r_sigma_range: 0.08,
-            r_sigma_angle: 0.04_f64.to_radians(),
-            r_sigma_accelerometer: 3.433e-6,
-            r_sigma_position: 1e-2,
-            r_sigma_velocity: 1e-4,
-            reference_orbit_semi_major_axis: 8.1431e6,
+            accelerometer_gate: Self::OWN,
+            accelerometer_beta: Self::OWN,
+            accelerometer_bias_sigma: Self::OWN,
+            r_sigma_range: Self::OWN,
+            r_sigma_angle: Self::OWN,
+            r_sigma_accelerometer: Self::OWN,
+            r_sigma_position: Self::OWN,
+            r_sigma_velocity: Self::OWN,
+            reference_orbit_semi_major_axis: Self::OWN,
             off_nominal: 1.0,
-            gravity_mu: astro::earth::FILTER.mu,
-            gravity_radius: astro::earth::FILTER.r_ref,
-            gravity_j: [j2, j3, j4],
-            gravity_mass_ratio: astro::cr3bp::EARTH_MOON_MASS_RATIO,
+            gravity_mu: Self::OWN,
+            gravity_radius: Self::OWN,
+            gravity_j: [Self::OWN; 3],
+            gravity_mass_ratio: Self::OWN,
             divergence_nis: 100.0,
             divergence_samples: 60,
+        }
+    }
+}
+
+/// Whether a value stands for the mission's own.
+pub(crate) fn is_own(value: f64) -> bool {
+    value.to_bits() == Beliefs::OWN.to_bits()
+}
+
+/// Puts a value that is not the mission's own into its place, and holds what then stands there against its bound.
+fn put(name: &str, bound: Bound, unit: &'static str, value: f64, place: &mut f64) -> Result<(), FilterError> {
+    if !is_own(value) {
+        *place = value;
+    }
+    bound.check(name, *place, unit)?;
+    Ok(())
+}
+
+impl Beliefs {
+    /// What a filter is told of a mission, with every value that is set here in place of the mission's own. What a mission
+    /// has not, such as the noise of a sensor that is not on board, is passed by.
+    ///
+    /// # Errors
+    /// When a value is out of range.
+    pub(crate) fn over(&self, navigation: &Navigation) -> Result<Navigation, FilterError> {
+        let mut told = navigation.clone();
+        let p0 = &mut told.p0;
+        put(
+            "p0.sigma_position",
+            Positive,
+            "m",
+            self.p0_sigma_position,
+            &mut p0.position,
+        )?;
+        put(
+            "p0.sigma_velocity",
+            Positive,
+            "m/s",
+            self.p0_sigma_velocity,
+            &mut p0.velocity,
+        )?;
+        let (name, value) = ("p0.sigma_acceleration", self.p0_sigma_acceleration);
+        put(name, Positive, "m/s2", value, &mut p0.acceleration)?;
+        if told.frame == Frame::Inertial {
+            put("p0.sigma_bias", Positive, "m/s2", self.p0_sigma_bias, &mut p0.bias)?;
+        }
+        put(
+            "chaser.q_c",
+            NonNegative,
+            "m2/s3",
+            self.chaser_q_c,
+            &mut told.chaser_q_c_m2_s3,
+        )?;
+        if let Some(s) = &mut told.accelerometer {
+            put(
+                "accelerometer.gate",
+                NonNegative,
+                "m/s2",
+                self.accelerometer_gate,
+                &mut s.gate_m_s2,
+            )?;
+            let mut beta = 1.0 / s.bias_time_constant_s;
+            put(
+                "accelerometer.beta",
+                NonNegative,
+                "1/s",
+                self.accelerometer_beta,
+                &mut beta,
+            )?;
+            if !is_own(self.accelerometer_beta) {
+                s.bias_time_constant_s = 1.0 / beta;
+            }
+            let (name, value) = ("accelerometer.bias_sigma", self.accelerometer_bias_sigma);
+            put(name, NonNegative, "m/s2", value, &mut s.bias_sigma_m_s2)?;
+            put(
+                "r.sigma_accelerometer",
+                Positive,
+                "m/s2",
+                self.r_sigma_accelerometer,
+                &mut s.sigma_m_s2,
+            )?;
+        }
+        if let Some(s) = &mut told.lidar {
+            put("r.sigma_range", Positive, "m", self.r_sigma_range, &mut s.sigma_range_m)?;
+            put(
+                "r.sigma_angle",
+                Positive,
+                "rad",
+                self.r_sigma_angle,
+                &mut s.sigma_angle_rad,
+            )?;
+        }
+        if let Some(s) = &mut told.metrology {
+            put(
+                "r.sigma_position",
+                Positive,
+                "m",
+                self.r_sigma_position,
+                &mut s.sigma_position_m,
+            )?;
+            put(
+                "r.sigma_velocity",
+                Positive,
+                "m/s",
+                self.r_sigma_velocity,
+                &mut s.sigma_velocity_m_s,
+            )?;
+        }
+        let (name, value) = ("reference_orbit.semi_major_axis", self.reference_orbit_semi_major_axis);
+        if let Some(a) = &mut told.reference_orbit_a_m {
+            put(name, Positive, "m", value, a)?;
+        } else if !is_own(value) {
+            told.reference_orbit_a_m = Some(Positive.check(name, value, "m")?);
+        }
+        self.gravity_over(&mut told.gravity)?;
+        Ok(told)
+    }
+
+    fn gravity_over(&self, gravity: &mut Gravity) -> Result<(), FilterError> {
+        let point = |mu: &mut f64, radius: &mut f64| {
+            put("gravity.mu", Positive, "m3/s2", self.gravity_mu, mu)?;
+            put("gravity.radius", Positive, "m", self.gravity_radius, radius)
+        };
+        match gravity {
+            Gravity::TwoBody(body) => point(&mut body.mu_m3_s2, &mut body.radius_m),
+            Gravity::Zonal(body) => {
+                point(&mut body.mu_m3_s2, &mut body.radius_m)?;
+                body.j.resize(body.j.len().max(self.gravity_j.len()), 0.0);
+                for (n, (value, place)) in (2..).zip(self.gravity_j.iter().zip(&mut body.j)) {
+                    put(&format!("gravity.j{n}"), Any, "", *value, place)?;
+                }
+                Ok(())
+            }
+            Gravity::Cr3bp(problem) => {
+                let (name, value) = ("gravity.mass_ratio", self.gravity_mass_ratio);
+                put(name, Positive, "", value, &mut problem.mass_ratio)?;
+                if problem.mass_ratio < 1.0 {
+                    return Ok(());
+                }
+                Err(FilterError::OutOfRange {
+                    name: name.into(),
+                    value: problem.mass_ratio,
+                    unit: "",
+                    permitted: "between 0 and 1".into(),
+                })
+            }
+            Gravity::Harmonics(_) => Ok(()),
         }
     }
 }

@@ -3,14 +3,6 @@
 /// One variant per cause; messages name the FMI variable or the epoch concerned.
 #[derive(Debug, thiserror::Error)]
 pub enum FilterError {
-    /// A scenario number or name that is not registered.
-    #[error("scenario '{name}' is not known here; known: {known}")]
-    UnknownScenario {
-        /// As given.
-        name: String,
-        /// Registered names.
-        known: String,
-    },
     /// A filter number or name that is not registered.
     #[error("filter '{name}' is not known here; known: {known}")]
     UnknownFilter {
@@ -20,15 +12,39 @@ pub enum FilterError {
         known: String,
     },
     /// A filter in a world where it has no meaning.
-    #[error("filter {filter} has no meaning in scenario {scenario}: {why}")]
+    #[error("filter {filter} has no meaning in mission {mission}: {why}")]
     NoMeaning {
         /// Filter.
         filter: &'static str,
-        /// Scenario.
-        scenario: &'static str,
+        /// Mission.
+        mission: String,
         /// Reason.
         why: &'static str,
     },
+    /// A mission that tells a filter of something which it cannot use.
+    #[error("mission {mission}: {what}")]
+    Unusable {
+        /// Mission.
+        mission: String,
+        /// What, and what is allowed.
+        what: String,
+    },
+    /// A start value that no law takes from a mission.
+    #[error("mission {mission}: no law takes \"{name}\" from [navigation.law]; known: {known}")]
+    UnknownStart {
+        /// As the mission has it.
+        name: String,
+        /// Mission.
+        mission: String,
+        /// Every start value that a mission may state.
+        known: String,
+    },
+    /// A gravity field that cannot be read.
+    #[error(transparent)]
+    Field(#[from] astro::harmonics::FieldError),
+    /// A body or an epoch that is not known.
+    #[error(transparent)]
+    Astro(#[from] astro::AstroError),
     /// The target's orbit, which the filter's dynamics need, is missing.
     #[error(
         "at t = {t_s} s target_orbit.r = {r} m and target_orbit.h = {h} m2/s: connect target_orbit.*, both must be positive"
@@ -59,14 +75,6 @@ pub enum FilterError {
         /// FMI variable.
         name: String,
     },
-    /// A tunable left at "the scenario's own" in a scenario that has no value for it.
-    #[error("{name} is -1, the scenario's own value, but scenario {scenario} has none: set it")]
-    NoScenarioDefault {
-        /// FMI variable.
-        name: String,
-        /// Scenario.
-        scenario: &'static str,
-    },
     /// The first sample arrived and no initial estimate had been given.
     #[error("nav_init.x is all zero when sample 1 at t = {t_s} s arrives: connect or set nav_init.x[1..18]")]
     NoInitialEstimate {
@@ -75,7 +83,7 @@ pub enum FilterError {
     },
     /// The initial estimate has no chaser in it.
     #[error(
-        "nav_init.x[10..12], the chaser's position, is zero when the first sample arrives at t = {t_s} s: is the world in the same scenario as the filter?"
+        "nav_init.x[10..12], the chaser's position, is zero when the first sample arrives at t = {t_s} s: is the world flying the same mission as the filter?"
     )]
     NoChaserPosition {
         /// Epoch of the sample, s.

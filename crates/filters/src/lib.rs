@@ -1,32 +1,39 @@
 //! Navigation filters: one extended Kalman filter and, plugged into it, one file per adaptation law.
 //!
 //! * [`Navigator`] takes sensor samples one by one and holds the estimate; start reading there.
-//! * [`ekf`] updates, for all; it is written once, so a difference in results is a difference in the law.
-//! * `plants` holds what is estimated and how it is measured: range and angles with 18 states, or the relative state in full
-//!   with nine.
-//! * [`laws`] holds the laws and their registry: adding a filter is one file and one line.
-//! * [`scenarios`] holds what a filter believes of each world: gravity, initial covariance, defaults of the laws.
+//! * [`dynamics`] moves what is estimated, [`update`] takes measurements in, [`laws`] choose the process noise: three things. A
+//!   registered filter names one of each; adding a law is one file and one line.
+//! * `estimators` puts a state, its dynamics and its update together for a frame: both vehicles in axes N, 18 states, or the
+//!   relative state in the target's LVLH axes, nine.
+//! * What a filter is told of a mission is [`interface::Navigation`]; [`Beliefs`] are what a user sets in its place, and
+//!   [`tunable`] says how a law's start values come from the mission's scales.
 //!
 //! Nothing here knows of the simulated truth, and nothing here knows of FMI.
 
 mod beliefs;
-pub mod ekf;
+mod disturbance;
+pub mod dynamics;
 mod error;
+mod estimators;
 mod gravity;
+mod innovation;
 pub mod jerk;
 pub mod laws;
+mod layout;
 mod navigator;
-mod plants;
 mod sample;
-pub mod scenarios;
 pub mod state;
 pub mod tunable;
 mod units;
+pub mod update;
 
 pub use beliefs::Beliefs;
+pub use disturbance::Disturbance;
 pub use error::FilterError;
 pub use gravity::Gravity;
-pub use interface::Status;
-pub use navigator::{Estimate, Innovation, Navigator, Settings};
-pub use sample::Sample;
+pub use innovation::Innovation;
+pub use interface::{Navigation, Status};
+pub use layout::{Layout, Measured, Sensor};
+pub use navigator::{Estimate, Navigator, Settings};
+pub use sample::{Reading, Sample, SpecificForce};
 pub use units::Units;

@@ -1,49 +1,48 @@
 //! A running filter: takes samples, bridges gaps, and holds the estimate.
 
 use crate::beliefs::Beliefs;
+use crate::dynamics::AccelerationModel;
 use crate::error::FilterError;
-use crate::laws::{AccelerationModel, Adaptation, FILTERS, FilterEntry, Law, RelativeModel, Setup, Step};
-use crate::plants::{Plant, Reported};
+use crate::estimators::{Gap, Kind, Reported};
+use crate::innovation::Innovation;
+use crate::laws::{Adaptation, FILTERS, FilterEntry, Law, Setup, Step, Update, registry};
+use crate::layout::Layout;
 use crate::sample::Sample;
-use crate::scenarios::{Measures, SCENARIOS, ScenarioEntry};
-use crate::state::{N_TARGET, State, TargetMatrix};
-use crate::tunable::{Bound, Tunables, Value};
+use crate::state::{State, TargetMatrix};
+use crate::tunable::{Tunables, Value};
 use crate::units::Units;
-use interface::Status;
-use nalgebra::{Vector3, Vector6};
+use interface::Bound::Positive;
+use interface::mission::Frame;
+use interface::{Navigation, Status};
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Longest step of one propagation, s; a gap between samples is crossed in equal parts no longer than this.
-const LONGEST_STEP: f64 = 1.0;
 /// Longest gap between samples, s. A tag further ahead is a mistake of the caller, not a gap.
 const LONGEST_GAP: f64 = 1e5;
 
-/// Everything that chooses a filter.
+/// Everything that chooses a filter, but for the mission.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Index into [`SCENARIOS`].
-    pub scenario: usize,
     /// Index into [`FILTERS`].
     pub filter: usize,
     /// Seed of the study.
     pub study_seed: u64,
     /// Run within the study.
     pub run: u64,
-    /// What the filter believes of the world.
+    /// What the filter believes of the world where it is not what the mission says.
     pub beliefs: Beliefs,
     /// Values of every tunable of every filter, in the order of [`FILTERS`] and of their declarations.
     pub tunables: Vec<Vec<Value>>,
 }
 
 impl Default for Settings {
-    /// The first scenario and filter, everything at its start value.
+    /// The first filter, everything at its start value.
     fn default() -> Self {
         let tunables = FILTERS
             .iter()
             .map(|f| f.tunables.iter().map(|t| t.kind.start()).collect())
             .collect();
         Self {
-            scenario: 0,
             filter: 0,
             study_seed: 1,
             run: 0,
@@ -54,28 +53,12 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The scenario chosen.
-    ///
-    /// # Errors
-    /// When the index is not registered.
-    pub fn scenario(&self) -> Result<&'static ScenarioEntry, FilterError> {
-        SCENARIOS
-            .get(self.scenario)
-            .ok_or_else(|| FilterError::UnknownScenario {
-                name: format!("number {}", self.scenario + 1),
-                known: SCENARIOS.iter().map(|s| s.name).collect::<Vec<_>>().join(", "),
-            })
-    }
-
     /// The filter chosen.
     ///
     /// # Errors
     /// When the index is not registered.
     pub fn filter(&self) -> Result<&'static FilterEntry, FilterError> {
-        FILTERS.get(self.filter).ok_or_else(|| FilterError::UnknownFilter {
-            name: format!("number {}", self.filter + 1),
-            known: FILTERS.iter().map(|f| f.name).collect::<Vec<_>>().join(", "),
-        })
+        registry::entry(self.filter)
     }
 
     /// The value of one tunable, to be changed.
@@ -93,7 +76,7 @@ pub struct Estimate {
     pub time: f64,
     /// Its ordinal; 0 before the first.
     pub count: i32,
-    /// The 18 states; in a world that measures the relative state in full: rho, rho_dot and d (LVLH), then nothing.
+    /// The 18 states; in the LVLH frame: rho, rho_dot and d, then nothing.
     pub x: State,
     /// Covariance of the first nine.
     pub p_target: TargetMatrix,
@@ -101,23 +84,14 @@ pub struct Estimate {
     pub sigma: State,
 }
 
-/// The newest innovation, SI: range (m), azimuth and elevation (rad), or relative position (m) and velocity (m/s) in LVLH.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Innovation {
-    /// Measured minus predicted; zero beyond the rows of the world's measurement.
-    pub residual: Vector6<f64>,
-    /// Their predicted variances; zero without a covariance.
-    pub variance: Vector6<f64>,
-    /// Normalised innovation squared of all rows; zero without a covariance.
-    pub nis: f64,
-}
-
 /// A filter at work; all of its state is here and can be saved.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Navigator {
     units: Units,
-    measures: Measures,
-    plant: Plant,
+    frame: Frame,
+    layout: Layout,
+    start_s: f64,
+    estimator: Kind,
     law: Law,
     divergence: Divergence,
     estimate: Estimate,
@@ -136,43 +110,54 @@ struct Divergence {
 impl Navigator {
     /// A filter that waits for its first sample.
     ///
+    /// * `navigation`: what the mission tells it.
     /// * `start_time`: epoch at which the initial estimate will hold, s.
     ///
     /// # Errors
-    /// When the scenario or filter is unknown, the one has no meaning in the other, or a parameter is out of range.
-    pub fn new(settings: &Settings, start_time: f64) -> Result<Self, FilterError> {
-        let (scenario, filter, b) = (settings.scenario()?, settings.filter()?, &settings.beliefs);
-        if let Some(why) = filter.no_meaning_in(scenario) {
+    /// When the filter is unknown or has no meaning in the mission, the mission tells of something that it cannot use, or a
+    /// parameter is out of range.
+    pub fn new(navigation: &Navigation, settings: &Settings, start_time: f64) -> Result<Self, FilterError> {
+        let (filter, b) = (settings.filter()?, &settings.beliefs);
+        if let Some(why) = filter.no_meaning_in(navigation) {
             return Err(FilterError::NoMeaning {
                 filter: filter.name,
-                scenario: scenario.name,
+                mission: navigation.mission.clone(),
                 why,
             });
         }
-        let law = (filter.build)(&Setup {
+        registry::check_names(navigation)?;
+        let told = b.over(navigation)?;
+        let (units, layout) = (Units::of(&told.units), Layout::of(&told));
+        let setup = Setup {
             tunables: Tunables {
                 law: filter.name,
                 declared: filter.tunables,
                 values: settings.tunables.get(settings.filter).map_or(&[], Vec::as_slice),
-                scenario: scenario.name,
-                defaults: scenario.defaults,
+                told: &told,
             },
-            rows: scenario.measures.rows(),
-            r: Plant::noise(scenario, b)?,
-            measures: scenario.measures,
-            units: scenario.units,
-            off_nominal: Bound::Positive.check("off_nominal", b.off_nominal, "")?,
+            layout,
+            r: Kind::noise(&told),
+            state_measured: told.frame == Frame::Lvlh,
+            units,
+            off_nominal: Positive.check("off_nominal", b.off_nominal, "")?,
             study_seed: settings.study_seed,
             run: settings.run,
-        })?;
+        };
+        let law = Law::new(settings.filter, &setup)?;
+        let gain = match filter.update {
+            Update::Kalman => None,
+            Update::ConstantGain(gain) => Some(gain(&setup)?),
+        };
         Ok(Self {
-            units: scenario.units,
-            measures: scenario.measures,
-            plant: Plant::new(scenario, b, &law)?,
+            units,
+            frame: told.frame,
+            layout,
+            start_s: start_time,
+            estimator: Kind::new(&told, b, filter.motion, gain, law.acceleration())?,
             law,
             divergence: Divergence {
-                limit: Bound::Positive.check("divergence.nis", b.divergence_nis, "")?,
-                samples: Bound::Positive.check("divergence.samples", f64::from(b.divergence_samples), "")?,
+                limit: Positive.check("divergence.nis", b.divergence_nis, "")?,
+                samples: Positive.check("divergence.samples", f64::from(b.divergence_samples), "")?,
                 mean: 1.0,
             },
             estimate: Estimate {
@@ -214,32 +199,30 @@ impl Navigator {
                 limit_s: LONGEST_GAP,
             });
         }
-        let plant = self.plant.get_mut();
-        plant.check(sample)?;
-        if !plant.started() {
+        let estimator = self.estimator.get_mut();
+        estimator.check(sample)?;
+        if !estimator.started() {
             if nav_init.iter().all(|v| *v == 0.0) {
                 return Err(FilterError::NoInitialEstimate { t_s });
             }
-            plant.start(nav_init, &self.law, t_s)?;
-            self.law.look_ahead(&plant.relative());
+            estimator.start(nav_init, t_s)?;
+            self.law.look_ahead(&estimator.relative());
         }
 
-        let dt = gap_s / self.units.time;
-        let parts = (gap_s / LONGEST_STEP - 1e-9).ceil().max(1.0) as u32;
-        let f = plant.propagate(gap_s, parts, sample, &self.law);
-        let updated = plant.update(sample, dt, &self.law)?;
-        if let Some(defect) = plant.defect(t_s) {
+        let gap = Gap {
+            from_s: last_s,
+            length_s: gap_s,
+            start_s: self.start_s,
+        };
+        let f = estimator.propagate(&gap, sample, &self.law)?;
+        let mut step = Step::blank(gap_s / self.units.time, f);
+        let seen = estimator.update(sample, &mut step)?;
+        if let Some(defect) = estimator.defect(t_s) {
             return Err(defect);
         }
-        self.law.observe(Step {
-            dt,
-            f,
-            h: updated.h,
-            innovation: updated.innovation,
-            correction: updated.correction,
-        })?;
-        self.law.look_ahead(&plant.relative());
-        let Reported { x, p_target, sigma } = plant.report(sample, &self.law);
+        self.law.observe(&step)?;
+        self.law.look_ahead(&estimator.relative());
+        let Reported { x, p_target, sigma } = estimator.report(sample, &self.law);
         self.estimate = Estimate {
             time: sample.time,
             count: sample.count,
@@ -247,22 +230,25 @@ impl Navigator {
             p_target,
             sigma,
         };
-        self.judge(updated.seen);
+        self.judge(sample, seen);
         Ok(())
     }
 
-    /// Keeps the innovation and says what the filter is doing.
-    fn judge(&mut self, seen: Option<Innovation>) {
+    /// Keeps the innovation and says what the filter is doing. An epoch at which no sensor of the target samples says nothing.
+    fn judge(&mut self, sample: &Sample, seen: Option<Innovation>) {
         let Some(seen) = seen else {
-            self.status = Status::Coasting;
+            if self.layout.any_due(sample) {
+                self.status = Status::Coasting;
+            }
             return;
         };
         self.innovation = seen;
-        if self.dimension() > 0 {
-            let normalised = seen.nis / self.measures.rows() as f64;
+        let judged = self.dimension() > 0;
+        if judged {
+            let normalised = seen.nis / seen.rows as f64;
             self.divergence.mean += (normalised - self.divergence.mean) / self.divergence.samples;
         }
-        self.status = if self.dimension() > 0 && self.divergence.mean > self.divergence.limit {
+        self.status = if judged && self.divergence.mean > self.divergence.limit {
             Status::Diverged
         } else {
             Status::Tracking
@@ -284,26 +270,22 @@ impl Navigator {
         self.status
     }
 
-    /// What the world measures of the target, and so which frame the first nine states are in.
-    pub fn measures(&self) -> Measures {
-        self.measures
+    /// The frame of the first nine states.
+    pub fn frame(&self) -> Frame {
+        self.frame
     }
 
     /// Number of the first nine states that have a covariance: nine, six without an acceleration state, none under a
     /// constant gain.
     pub fn dimension(&self) -> usize {
-        match self.law.acceleration() {
-            _ if self.law.gain(1.0).is_some() => 0,
-            AccelerationModel::Absent => 6,
-            AccelerationModel::RandomWalk | AccelerationModel::GaussMarkov(_) => N_TARGET,
-        }
+        self.estimator.get().dimension()
     }
 
     /// Whether the unmodelled acceleration is estimated, as a state, by a network or by a better model.
     pub fn estimates_acceleration(&self) -> bool {
         self.law.acceleration() != AccelerationModel::Absent
             || self.law.disturbance().is_some()
-            || self.law.relative_model() != RelativeModel::ClohessyWiltshire
+            || self.estimator.get().knows_acceleration()
     }
 
     /// Square root of the jerk density in use, axes of the estimate, m/s^2.5; zero for a law without one.

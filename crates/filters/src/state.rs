@@ -38,9 +38,11 @@ pub type StateMatrix = SMatrix<f64, N, N>;
 pub type Target = SVector<f64, N_TARGET>;
 /// Covariance, transition or process-noise matrix of the target's nine states.
 pub type TargetMatrix = SMatrix<f64, N_TARGET, N_TARGET>;
-/// LiDAR rows (range, azimuth, elevation) over the target's nine states.
-pub type LidarRows = SMatrix<f64, 3, N_TARGET>;
-/// Most rows that a world's main measurement has.
-pub const MAX_ROWS: usize = 6;
-/// Rows of the main measurement over the target's nine states; those a world does not have are zero.
+/// Most rows that the sensors of the target have together.
+pub const MAX_ROWS: usize = 13;
+/// Rows of the sensors of the target over the target's nine states, in the places of [`crate::Layout`].
 pub type Rows = SMatrix<f64, MAX_ROWS, N_TARGET>;
+/// One value for each row.
+pub type RowVector = SVector<f64, MAX_ROWS>;
+/// Covariance of the rows.
+pub type RowMatrix = SMatrix<f64, MAX_ROWS, MAX_ROWS>;

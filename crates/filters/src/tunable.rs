@@ -1,18 +1,94 @@
-//! Tunables of a law: what the FMU offers as parameters under the law's own prefix, and how the law reads them.
+//! Tunables of a law: what the FMU offers as parameters under the law's own prefix, where their starts come from, and how the
+//! law reads them.
 
-use crate::FilterError;
-use crate::scenarios::{Defaults, default_of};
+use crate::beliefs::{Beliefs, is_own};
+use crate::error::FilterError;
+use crate::units::Units;
+use interface::Navigation;
 use serde::{Deserialize, Serialize};
 
 pub use interface::Bound;
 
+/// What the start values of a law are derived from: sizes that a mission states, SI.
+#[derive(Clone, Copy, Debug)]
+pub struct Scales {
+    /// A typical acceleration that is not modelled, m/s2.
+    pub disturbance: f64,
+    /// How long it typically lasts, s.
+    pub time: f64,
+    /// Shortest time between samples of the sensors that see the target, s.
+    pub period: f64,
+    /// Noise of the best measured length, m; 1 m where angles alone are measured.
+    pub length: f64,
+    /// Initial standard deviation of a position, m.
+    pub position: f64,
+    /// Units that the law adapts in.
+    pub units: Units,
+}
+
+impl Scales {
+    /// Those of a mission.
+    pub fn of(told: &Navigation) -> Self {
+        let periods = [
+            told.lidar.map(|s| s.period_s),
+            told.camera.map(|s| s.period_s),
+            told.radio.map(|s| s.period_s),
+            told.metrology.map(|s| s.period_s),
+        ];
+        let lengths = [
+            told.lidar.map(|s| s.sigma_range_m),
+            told.radio.map(|s| s.sigma_range_m),
+            told.metrology.map(|s| s.sigma_position_m),
+        ];
+        let least = |of: &[Option<f64>]| of.iter().flatten().copied().reduce(f64::min).unwrap_or(1.0);
+        Self {
+            disturbance: told.scale.disturbance_m_s2,
+            time: told.scale.disturbance_time_s,
+            period: least(&periods),
+            length: least(&lengths),
+            position: told.p0.position,
+            units: Units::of(&told.units),
+        }
+    }
+
+    /// Square root of a white acceleration density with the effect of the disturbance, m/s^1.5: pushes of size a that last T and
+    /// come one behind the other, in any direction, add velocity like white noise of density a^2 T.
+    pub fn root_acceleration_density(&self) -> f64 {
+        self.disturbance * self.time.sqrt()
+    }
+
+    /// Square root of a white jerk density under which the acceleration walks by its own size in the time that it lasts, m/s^2.5.
+    pub fn root_jerk_density(&self) -> f64 {
+        self.disturbance / self.time.sqrt()
+    }
+}
+
+/// Where a real tunable starts.
+#[derive(Clone, Copy, Debug)]
+pub enum Start {
+    /// The same in every mission.
+    Fixed(f64),
+    /// What the mission states for it in `[navigation.law]`, else this function of its scales; shown as -1.
+    Derived(fn(&Scales) -> f64),
+}
+
+impl Start {
+    /// The value where it is the same in every mission.
+    pub fn fixed(self) -> Option<f64> {
+        match self {
+            Self::Fixed(value) => Some(value),
+            Self::Derived(_) => None,
+        }
+    }
+}
+
 /// Type, start value and range of a tunable.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Kind {
-    /// A real number; `None` as start means "the scenario's own", shown as -1.
+    /// A real number.
     Real {
         /// Start value.
-        start: Option<f64>,
+        start: Start,
         /// Unit as FMI writes it; empty when it depends on the units the law adapts in.
         unit: &'static str,
         /// Permitted range.
@@ -77,10 +153,10 @@ pub enum Value {
 }
 
 impl Kind {
-    /// The start value; -1 for "the scenario's own".
+    /// The start value; -1 for "the mission's own".
     pub fn start(&self) -> Value {
         match *self {
-            Self::Real { start, .. } => Value::Real(start.unwrap_or(crate::Beliefs::OWN)),
+            Self::Real { start, .. } => Value::Real(start.fixed().unwrap_or(Beliefs::OWN)),
             Self::Integer { start, .. } => Value::Integer(start),
             Self::Boolean { start } => Value::Boolean(start),
             Self::Choice { .. } => Value::Choice(0),
@@ -88,7 +164,7 @@ impl Kind {
     }
 }
 
-/// The tunables of one law with their values, scenario defaults filled in on reading.
+/// The tunables of one law with their values, the mission's own filled in on reading.
 pub struct Tunables<'a> {
     /// The law's name, the prefix of its tunables.
     pub law: &'static str,
@@ -96,10 +172,8 @@ pub struct Tunables<'a> {
     pub declared: &'static [Tunable],
     /// One value for each, in the same order.
     pub values: &'a [Value],
-    /// Name of the scenario, for messages.
-    pub scenario: &'static str,
-    /// The scenario's own values by full name.
-    pub defaults: Defaults,
+    /// The mission: its stated start values and its scales.
+    pub told: &'a Navigation,
 }
 
 impl Tunables<'_> {
@@ -108,10 +182,10 @@ impl Tunables<'_> {
         Some((&self.declared[at], *self.values.get(at)?))
     }
 
-    /// A real tunable, with the scenario's own value where it is left at -1.
+    /// A real tunable, with the mission's own value where it is left at -1.
     ///
     /// # Errors
-    /// When the scenario has no value of its own or the value is out of range.
+    /// When the value is out of range.
     pub fn real(&self, name: &str) -> Result<f64, FilterError> {
         let full = format!("{}.{}", self.law, name);
         let Some((
@@ -124,13 +198,11 @@ impl Tunables<'_> {
         else {
             return Err(self.mistyped(full));
         };
-        let value = if start.is_none() && value == crate::Beliefs::OWN {
-            default_of(self.defaults, &full).ok_or(FilterError::NoScenarioDefault {
-                name: full.clone(),
-                scenario: self.scenario,
-            })?
-        } else {
-            value
+        let value = match start {
+            Start::Derived(rule) if is_own(value) => {
+                self.told.law(&full).unwrap_or_else(|| rule(&Scales::of(self.told)))
+            }
+            _ => value,
         };
         Ok(bound.check(&full, value, unit)?)
     }

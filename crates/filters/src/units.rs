@@ -17,6 +17,14 @@ impl Units {
     /// Metres and seconds.
     pub const SI: Self = Self { length: 1.0, time: 1.0 };
 
+    /// Those of a mission.
+    pub fn of(told: &interface::mission::Units) -> Self {
+        Self {
+            length: told.length_m,
+            time: told.time_s,
+        }
+    }
+
     /// One internal velocity, m/s.
     pub fn velocity(&self) -> f64 {
         self.length / self.time

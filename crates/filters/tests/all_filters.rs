@@ -7,14 +7,14 @@ mod common;
 mod formation;
 
 use astro::{ClohessyWiltshire, TargetOrbit};
-use common::OwnWorld;
+use common::{OwnWorld, navigation};
 use filters::laws::FILTERS;
-use filters::scenarios::{Measures, SCENARIOS};
 use filters::state::State;
 use filters::tunable::{Kind, Value};
-use filters::{FilterError, Navigator, Sample, Settings, Status};
+use filters::{FilterError, Navigator, Reading, Sample, Sensor, Settings, Status};
 use formation::{Formation, World};
-use nalgebra::{Matrix3, Vector3, Vector6};
+use interface::mission::Frame;
+use nalgebra::{Vector3, Vector6};
 use numerics::{Source, rk4, spd, stream};
 use rand_distr::{Distribution, StandardNormal};
 
@@ -31,28 +31,24 @@ fn settings(filter: &str, run: u64) -> Settings {
 fn everywhere(run: u64, s: f64) -> impl Iterator<Item = (String, Navigator, Box<dyn World>, State)> {
     FILTERS.iter().flat_map(move |entry| {
         ["leo_venting", "formation"].into_iter().filter_map(move |name| {
-            let scenario = SCENARIOS.iter().position(|s| s.name == name).unwrap();
-            let chosen = Settings {
-                scenario,
-                ..settings(entry.name, run)
-            };
-            if entry.no_meaning_in(&SCENARIOS[scenario]).is_some() {
-                let refused = Navigator::new(&chosen, 0.0).unwrap_err().to_string();
+            let (told, chosen) = (navigation(name), settings(entry.name, run));
+            if entry.no_meaning_in(&told).is_some() {
+                let refused = Navigator::new(&told, &chosen, 0.0).unwrap_err().to_string();
                 assert!(refused.contains(entry.name) && refused.contains(name), "{refused}");
                 return None;
             }
-            let (world, start): (Box<dyn World>, State) = match SCENARIOS[scenario].measures {
-                Measures::RangeAndBearing => {
+            let (world, start): (Box<dyn World>, State) = match told.frame {
+                Frame::Inertial => {
                     let (world, start) = OwnWorld::new(run, s);
                     (Box::new(world), start)
                 }
-                Measures::RelativeState => {
+                Frame::Lvlh => {
                     let (world, start) = Formation::new(run);
                     (Box::new(world), start)
                 }
             };
             let label = format!("{} in {name}", entry.name);
-            Some((label, Navigator::new(&chosen, 0.0).unwrap(), world, start))
+            Some((label, Navigator::new(&told, &chosen, 0.0).unwrap(), world, start))
         })
     })
 }
@@ -100,7 +96,7 @@ fn fixed_q_is_consistent_in_its_own_world() {
         let (mut world, start) = OwnWorld::new(run, s);
         let mut chosen = settings("fixed_q", run);
         *chosen.tunable_mut("fixed_q", "s").unwrap() = Value::Real(s);
-        let mut nav = Navigator::new(&chosen, 0.0).unwrap();
+        let mut nav = Navigator::new(&navigation("leo_venting"), &chosen, 0.0).unwrap();
         for _ in 0..800 {
             nav.process(&world.step(), &start).unwrap();
             nis_sum += nav.innovation().nis / 3.0;
@@ -151,7 +147,7 @@ fn dropouts_coast_and_gaps_are_bridged() {
         for k in 1..=400 {
             let mut sample = world.step();
             if k % 7 == 0 {
-                (sample.lidar, sample.metrology) = (None, None);
+                (sample.lidar, sample.metrology) = (Reading::Lost, Reading::Lost);
             }
             if k % 50 == 20 {
                 continue;
@@ -198,11 +194,10 @@ fn the_j2_filter_is_consistent_in_a_j2_world() {
     for run in 0..runs {
         let (mut world, start) = Formation::new(run);
         let mut chosen = settings("ekf_j2", run);
-        chosen.scenario = SCENARIOS.iter().position(|s| s.name == "formation").unwrap();
         for (tunable, q) in [("q_position", 0.0), ("q_velocity", 1e-20)] {
             *chosen.tunable_mut("ekf_j2", tunable).unwrap() = Value::Real(q);
         }
-        let mut nav = Navigator::new(&chosen, 0.0).unwrap();
+        let mut nav = Navigator::new(&navigation("formation"), &chosen, 0.0).unwrap();
         for _ in 0..samples {
             nav.process(&world.step(), &start).unwrap();
             nis += nav.innovation().nis / 6.0;
@@ -232,12 +227,8 @@ fn the_j2_filter_is_consistent_in_a_j2_world() {
 #[test]
 fn networks_learn_a_constant_disturbance() {
     for filter in ["rbfnn_aekf", "rbfnn_ekf", "observer"] {
-        let scenario = SCENARIOS.iter().position(|s| s.name == "formation").unwrap();
-        let chosen = Settings {
-            scenario,
-            ..settings(filter, 1)
-        };
-        let mut nav = Navigator::new(&chosen, 0.0).unwrap();
+        let chosen = settings(filter, 1);
+        let mut nav = Navigator::new(&navigation("formation"), &chosen, 0.0).unwrap();
         assert!(nav.estimates_acceleration());
         let d = Vector3::new(2e-5, 0.0, 1e-5);
         let circular = ClohessyWiltshire::from_semi_major_axis(8.1431e6, astro::earth::FILTER.mu);
@@ -259,13 +250,8 @@ fn networks_learn_a_constant_disturbance() {
                 if i < 3 { 1e-2 * w } else { 1e-4 * w }
             });
             let sample = Sample {
-                count: k,
-                time: f64::from(k),
-                lidar: None,
-                metrology: Some(x + noise),
-                target_orbit: TargetOrbit::from_vector(&Vector6::zeros()),
-                alpha_c_bc: Vector3::zeros(),
-                dcm_bc_n: Matrix3::identity(),
+                metrology: Reading::Seen(x + noise),
+                ..Sample::blank(k, f64::from(k))
             };
             nav.process(&sample, &start).unwrap();
             if k > settled {
@@ -281,9 +267,8 @@ fn networks_learn_a_constant_disturbance() {
 #[test]
 fn the_j2_filter_asks_for_the_orbit() {
     let (mut world, start) = Formation::new(0);
-    let mut chosen = settings("ekf_j2", 0);
-    chosen.scenario = SCENARIOS.iter().position(|s| s.name == "formation").unwrap();
-    let mut nav = Navigator::new(&chosen, 0.0).unwrap();
+    let chosen = settings("ekf_j2", 0);
+    let mut nav = Navigator::new(&navigation("formation"), &chosen, 0.0).unwrap();
     let mut sample = world.step();
     sample.target_orbit = TargetOrbit::from_vector(&Vector6::zeros());
     let error = nav.process(&sample, &start).unwrap_err().to_string();
@@ -295,16 +280,15 @@ fn the_j2_filter_asks_for_the_orbit() {
 fn off_nominal_scales_the_gain_of_the_observer() {
     for factor in [0.1_f64, 1.0, 10.0] {
         let mut chosen = settings("observer", 0);
-        chosen.scenario = SCENARIOS.iter().position(|s| s.name == "formation").unwrap();
         chosen.beliefs.off_nominal = factor;
         let (mut world, start) = Formation::new(0);
-        let mut nav = Navigator::new(&chosen, 0.0).unwrap();
+        let mut nav = Navigator::new(&navigation("formation"), &chosen, 0.0).unwrap();
         let sample = world.step();
         nav.process(&sample, &start).unwrap();
-        let left = sample.metrology.unwrap() - nav.estimate().x.fixed_rows::<6>(0);
+        let left = sample.metrology.seen().unwrap() - nav.estimate().x.fixed_rows::<6>(0);
         for i in 0..6 {
             let k: f64 = if i < 3 { 0.42 } else { 0.025 };
-            let expected = (-factor * k).exp() * nav.innovation().residual[i];
+            let expected = (-factor * k).exp() * nav.innovation().residual[Sensor::Metrology.channels().start + i];
             assert!(
                 (left[i] - expected).abs() < 1e-12,
                 "factor {factor}, row {i}: {} {expected}",
@@ -317,12 +301,11 @@ fn off_nominal_scales_the_gain_of_the_observer() {
 /// One factor on the process noise, whatever the law calls it.
 #[test]
 fn off_nominal_scales_the_process_noise() {
-    let scenario = SCENARIOS.iter().position(|s| s.name == "formation").unwrap();
     let sigma = |filter: &str, off_nominal: f64| {
         let mut chosen = settings(filter, 0);
-        (chosen.scenario, chosen.beliefs.off_nominal) = (scenario, off_nominal);
+        chosen.beliefs.off_nominal = off_nominal;
         let (mut world, start) = Formation::new(0);
-        let mut nav = Navigator::new(&chosen, 0.0).unwrap();
+        let mut nav = Navigator::new(&navigation("formation"), &chosen, 0.0).unwrap();
         (0..400).for_each(|_| nav.process(&world.step(), &start).unwrap());
         nav.estimate().sigma[3]
     };
@@ -339,14 +322,13 @@ fn off_nominal_scales_the_process_noise() {
 #[test]
 fn a_filter_that_is_led_astray_says_so() {
     let (mut world, start) = OwnWorld::new(5, 1e-6);
-    let mut nav = Navigator::new(&settings("fixed_q", 5), 0.0).unwrap();
+    let mut nav = Navigator::new(&navigation("leo_venting"), &settings("fixed_q", 5), 0.0).unwrap();
     for k in 1..=600 {
         let mut sample = world.step();
         if k > 300 {
             // A second target that runs away faster than the filter can believe.
-            sample.lidar = sample
-                .lidar
-                .map(|z| z + Vector3::new(0.5 * f64::from(k - 300).powi(2), 0.0, 0.0));
+            let astray = Vector3::new(0.5 * f64::from(k - 300).powi(2), 0.0, 0.0);
+            sample.lidar = Reading::Seen(sample.lidar.seen().unwrap() + astray);
         }
         nav.process(&sample, &start).unwrap();
     }
@@ -357,7 +339,7 @@ fn a_filter_that_is_led_astray_says_so() {
 fn senseless_samples_are_refused_by_name() {
     let fresh = || {
         (
-            Navigator::new(&settings("fixed_q", 0), 0.0).unwrap(),
+            Navigator::new(&navigation("leo_venting"), &settings("fixed_q", 0), 0.0).unwrap(),
             OwnWorld::new(0, 1e-6),
         )
     };
@@ -408,7 +390,7 @@ fn parameters_out_of_range_are_refused_by_name() {
     type Change = fn(&mut Settings);
     let cases: [(&str, Change); 7] = [
         ("r.sigma_range", |s| s.beliefs.r_sigma_range = 0.0),
-        ("r.sigma_angle", |s| s.beliefs.r_sigma_angle = -1.0),
+        ("r.sigma_angle", |s| s.beliefs.r_sigma_angle = -2.0),
         ("r.sigma_accelerometer", |s| s.beliefs.r_sigma_accelerometer = f64::NAN),
         ("p0.sigma_position", |s| s.beliefs.p0_sigma_position = 0.0),
         ("chaser.q_c", |s| s.beliefs.chaser_q_c = -2.0),
@@ -420,7 +402,7 @@ fn parameters_out_of_range_are_refused_by_name() {
     for (name, change) in cases {
         let mut chosen = settings("fixed_q", 0);
         change(&mut chosen);
-        match Navigator::new(&chosen, 0.0) {
+        match Navigator::new(&navigation("leo_venting"), &chosen, 0.0) {
             Err(FilterError::OutOfRange { name: named, .. }) => assert_eq!(named, name),
             other => panic!("{name}: {other:?}"),
         }
@@ -430,7 +412,7 @@ fn parameters_out_of_range_are_refused_by_name() {
         ..Settings::default()
     };
     assert!(
-        Navigator::new(&unknown, 0.0)
+        Navigator::new(&navigation("leo_venting"), &unknown, 0.0)
             .unwrap_err()
             .to_string()
             .contains("fixed_q, snc, dmc, milton, constrained_q")

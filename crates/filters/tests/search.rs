@@ -3,20 +3,20 @@
 #![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
 
 use filters::laws::FILTERS;
-use filters::scenarios::SCENARIOS;
 use filters::tunable::{Kind, Value};
 use filters::{Navigator, Settings};
+use interface::mission::EMBEDDED;
 
 #[test]
 fn every_corner_of_a_search_is_a_legal_tuning() {
     for (filter, entry) in FILTERS.iter().enumerate() {
-        for (scenario, world) in SCENARIOS.iter().enumerate() {
-            if entry.only.is_some_and(|only| only.measures != world.measures) {
+        for mission in EMBEDDED {
+            let told = mission.mission().unwrap().navigation();
+            if entry.no_meaning_in(&told).is_some() {
                 continue;
             }
             for corner in 0..1_u32 << entry.search.len() {
                 let mut settings = Settings {
-                    scenario,
                     filter,
                     ..Settings::default()
                 };
@@ -43,12 +43,12 @@ fn every_corner_of_a_search_is_a_legal_tuning() {
                     let end = if corner >> i & 1 == 0 { range.low } else { range.high };
                     *settings.tunable_mut(entry.name, range.tunable).unwrap() = Value::Real(end);
                 }
-                let built = Navigator::new(&settings, 0.0);
+                let built = Navigator::new(&told, &settings, 0.0);
                 assert!(
                     built.is_ok(),
                     "{} in {}, corner {corner}: {:?}",
                     entry.name,
-                    world.name,
+                    mission.name,
                     built.err()
                 );
             }

@@ -252,6 +252,14 @@ pub const PORTS: &[Port] = &[
     row(Estimate, "q.skipped", Integer, Scalar, &[], &["updates passed by because the adaptation window was singular"]),
     row(Estimate, "q.unsolved", Integer, Scalar, &[],
         &["updates at which the law's solver found no solution, so that the last process noise stayed"]),
+    row(Estimate, "innov.camera", Real, Vector(2), &["rad"], &[
+        "azimuth of the camera, measured minus predicted", "elevation of the camera, measured minus predicted",
+    ]),
+    row(Estimate, "innov.camera_s", Real, Vector(2), &["rad2"], &["predicted variance of that innovation"]),
+    row(Estimate, "innov.radio", Real, Vector(2), &["m", "m/s"], &[
+        "range of the radio, measured minus predicted", "range rate of the radio, measured minus predicted",
+    ]),
+    row(Estimate, "innov.radio_s", Real, Vector(2), &["m2", "m2/s2"], &["predicted variance of that innovation"]),
     row(Estimate, "cov.p", Real, Matrix(9, 9), COVARIANCE,
         &["covariance of r_tc, v_tc, a_t, in the LVLH frame of rho, rho_dot, d; 0 where a filter has no such state"]),
 ];

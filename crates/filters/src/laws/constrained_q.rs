@@ -13,13 +13,14 @@ mod conic;
 mod diagonal;
 mod full;
 
+use super::adaptation::{Adaptation, Setup, Step};
 use super::correlation::{DIAGONAL, Entry, FULL, Regression};
-use super::window::{M_B, RESIDUALS, WHITEN, Window};
-use super::{Adaptation, FilterEntry, Law, Search, Setup, Step};
-use crate::FilterError;
+use super::entry::{FilterEntry, Motion, Search, Update};
+use super::window::{M_B, RESIDUALS, WHITEN, Window, regression_variance};
+use crate::error::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
-use crate::tunable::{Bound, Kind, Preset, Tunable};
+use crate::tunable::{Bound, Kind, Preset, Start, Tunable};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +29,8 @@ const ROOT_DENSITY: &str = "m/s^2.5";
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "constrained_q",
     about: "the correlation regression solved for a bounded jerk density by a conic programme",
+    motion: Motion::OfFrame,
+    update: Update::Kalman,
     tunables: &[
         M_B,
         RESIDUALS,
@@ -44,7 +47,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "r_w",
             about: "weight of the regression: variance of one entry of the autocorrelation, in the units the law adapts in",
             kind: Kind::Real {
-                start: None,
+                start: Start::Derived(regression_variance),
                 unit: "",
                 bound: Bound::Positive,
             },
@@ -53,7 +56,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "memory",
             about: "updates after which old evidence has faded to 1/e",
             kind: Kind::Real {
-                start: Some(10.0),
+                start: Start::Fixed(10.0),
                 unit: "1",
                 bound: Bound::Positive,
             },
@@ -62,7 +65,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "s_min",
             about: "lower bound of s, in every direction",
             kind: Kind::Real {
-                start: Some(1e-7),
+                start: Start::Fixed(1e-7),
                 unit: ROOT_DENSITY,
                 bound: Bound::NonNegative,
             },
@@ -71,7 +74,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "s_max",
             about: "upper bound of s, in every direction",
             kind: Kind::Real {
-                start: Some(1.0),
+                start: Start::Fixed(1.0),
                 unit: ROOT_DENSITY,
                 bound: Bound::Positive,
             },
@@ -80,7 +83,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "s_prior",
             about: "s before any evidence, all axes: the square is the prior's mean of q",
             kind: Kind::Real {
-                start: Some(1e-6),
+                start: Start::Fixed(1e-6),
                 unit: ROOT_DENSITY,
                 bound: Bound::NonNegative,
             },
@@ -89,7 +92,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "s_spread",
             about: "the square is the prior's standard deviation of q",
             kind: Kind::Real {
-                start: Some(1e-2),
+                start: Start::Fixed(1e-2),
                 unit: ROOT_DENSITY,
                 bound: Bound::Positive,
             },
@@ -137,41 +140,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             high: 1e-1,
         },
     ],
-    only: None,
-    build,
 };
-
-fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
-    let t = &setup.tunables;
-    let density = |name: &str| Ok::<f64, FilterError>((t.real(name)? / setup.units.root_jerk_density()).powi(2));
-    let (lower, upper) = (density("s_min")?, density("s_max")?);
-    if lower >= upper {
-        return Err(FilterError::OutOfRange {
-            name: "constrained_q.s_min".into(),
-            value: t.real("s_min")?,
-            unit: ROOT_DENSITY,
-            permitted: format!("less than constrained_q.s_max = {}", t.real("s_max")?),
-        });
-    }
-    let (prior, spread) = (density("s_prior")? * setup.off_nominal, density("s_spread")?);
-    let full = t.choice("shape")? == 1;
-    Ok(ConstrainedQ {
-        window: Window::new(setup)?,
-        r_w: t.real("r_w")?,
-        fade: (-1.0 / t.real("memory")?).exp(),
-        lower,
-        upper,
-        evidence: if full {
-            Evidence::Full(Box::new(Fit::new(&FULL, prior, spread)))
-        } else {
-            Evidence::Diagonal(Fit::new(&DIAGONAL, prior, spread))
-        },
-        q: Matrix3::identity() * prior.clamp(lower, upper),
-        updates: 0,
-        unsolved: 0,
-    }
-    .into())
-}
 
 /// The law and its memory; internal units.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -234,6 +203,41 @@ impl<const K: usize> Fit<K> {
     }
 }
 
+impl ConstrainedQ {
+    /// # Errors
+    /// When a tunable is out of range.
+    pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        let t = &setup.tunables;
+        let density = |name: &str| Ok::<f64, FilterError>((t.real(name)? / setup.units.root_jerk_density()).powi(2));
+        let (lower, upper) = (density("s_min")?, density("s_max")?);
+        if lower >= upper {
+            return Err(FilterError::OutOfRange {
+                name: "constrained_q.s_min".into(),
+                value: t.real("s_min")?,
+                unit: ROOT_DENSITY,
+                permitted: format!("less than constrained_q.s_max = {}", t.real("s_max")?),
+            });
+        }
+        let (prior, spread) = (density("s_prior")? * setup.off_nominal, density("s_spread")?);
+        let full = t.choice("shape")? == 1;
+        Ok(Self {
+            window: Window::new(setup)?,
+            r_w: t.real("r_w")?,
+            fade: (-1.0 / t.real("memory")?).exp(),
+            lower,
+            upper,
+            evidence: if full {
+                Evidence::Full(Box::new(Fit::new(&FULL, prior, spread)))
+            } else {
+                Evidence::Diagonal(Fit::new(&DIAGONAL, prior, spread))
+            },
+            q: Matrix3::identity() * prior.clamp(lower, upper),
+            updates: 0,
+            unsolved: 0,
+        })
+    }
+}
+
 impl Adaptation for ConstrainedQ {
     fn process_noise(&self, dt: f64) -> TargetMatrix {
         match self.evidence {
@@ -242,13 +246,13 @@ impl Adaptation for ConstrainedQ {
         }
     }
 
-    fn observe(&mut self, step: Step) -> Result<(), FilterError> {
+    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
         let answer = match &mut self.evidence {
-            Evidence::Diagonal(fit) => self.window.push(&step, &DIAGONAL).map(|regression| {
+            Evidence::Diagonal(fit) => self.window.push(step, &DIAGONAL).map(|regression| {
                 let (h, g) = fit.gather(&regression, self.fade, self.r_w);
                 diagonal::minimise(&h, &g, self.lower, self.upper).map(|q| Matrix3::from_diagonal(&q))
             }),
-            Evidence::Full(fit) => self.window.push(&step, &FULL).map(|regression| {
+            Evidence::Full(fit) => self.window.push(step, &FULL).map(|regression| {
                 let (h, g) = fit.gather(&regression, self.fade, self.r_w);
                 full::minimise(&h, &g, self.lower, self.upper)
             }),
@@ -286,7 +290,8 @@ mod tests {
     use super::*;
     use crate::laws::correlation::tests::{oblique, watched};
     use crate::laws::correlation::{Observation, Sampled};
-    use crate::scenarios::Measures;
+    use crate::layout::{Layout, Sensor};
+    use crate::state::RowVector;
     use crate::tunable::{Tunables, Value};
     use crate::units::Units;
     use nalgebra::{Rotation3, Vector6};
@@ -298,37 +303,35 @@ mod tests {
             change.map_or(t.kind.start(), |(_, value)| *value)
         };
         let values: Vec<Value> = ENTRY.tunables.iter().map(value).collect();
-        let built = (ENTRY.build)(&Setup {
+        let mission = interface::mission::embedded("leo_venting").unwrap();
+        let told = mission.mission().unwrap().navigation();
+        let sensor = if rows == 3 { Sensor::Lidar } else { Sensor::Metrology };
+        ConstrainedQ::new(&Setup {
             tunables: Tunables {
                 law: ENTRY.name,
                 declared: ENTRY.tunables,
                 values: &values,
-                scenario: "none",
-                defaults: &[],
+                told: &told,
             },
-            rows,
-            r: Vector6::from_fn(|row, _| if row < rows { 0.09 } else { 0.0 }),
-            measures: Measures::RangeAndBearing,
+            layout: Layout::new(&[sensor]),
+            r: RowVector::from_fn(|row, _| if row < rows { 0.09 } else { 0.0 }),
+            state_measured: false,
             units: Units::SI,
             off_nominal: 1.0,
             study_seed: 1,
             run: 0,
-        });
-        match built.unwrap() {
-            Law::ConstrainedQ(law) => *law,
-            other => panic!("built {other:?}"),
-        }
+        })
+        .unwrap()
     }
 
     /// A sample as the filter hands it over: the first `rows` of them, not yet divided by their standard deviation.
     fn step<const M: usize>(sampled: &Sampled<M>, rows: usize, sigma: f64) -> Step {
-        Step {
-            dt: sampled.dt,
-            f: sampled.f,
-            h: (sampled.h.rows(0, rows) * sigma).fixed_resize(0.0),
-            innovation: (sampled.residual.rows(0, rows) * sigma).fixed_resize(0.0),
-            correction: sampled.correction,
-        }
+        let mut step = Step::blank(sampled.dt, sampled.f);
+        step.measured.mark(0..rows);
+        step.h = (sampled.h.rows(0, rows) * sigma).fixed_resize(0.0);
+        step.innovation = (sampled.residual.rows(0, rows) * sigma).fixed_resize(0.0);
+        step.correction = sampled.correction;
+        step
     }
 
     /// What a law that never forgets finds in a world of this density, three rows of the position being measured.
@@ -351,7 +354,7 @@ mod tests {
             .concat(),
         );
         for sampled in watched(&rows, &Vector3::repeat(sigma), density, 1, count) {
-            ours.observe(step(&sampled, 3, sigma)).unwrap();
+            ours.observe(&step(&sampled, 3, sigma)).unwrap();
         }
         assert_eq!((ours.unsolved, ours.skipped()), (0, 0));
         ours
@@ -433,7 +436,7 @@ mod tests {
             );
             for mut sampled in watched(&oblique(), &Vector3::repeat(0.3), &turned(), 2, 7) {
                 sampled.residual *= 1e200;
-                ours.observe(step(&sampled, 3, 1.0)).unwrap();
+                ours.observe(&step(&sampled, 3, 1.0)).unwrap();
             }
             assert_eq!((ours.updates(), ours.unsolved()), (0, 1), "shape {shape}");
             assert!((ours.q - Matrix3::identity() * 0.04).amax() < 1e-15, "shape {shape}");
@@ -453,12 +456,12 @@ mod tests {
             let steps = watched(&whole, &Vector6::repeat(0.3), &turned(), 3, 60);
             let steps: Vec<Step> = steps.iter().map(|sampled| step(sampled, rows, 0.3)).collect();
             let (early, late) = steps.split_at(31);
-            early.iter().for_each(|step| ours.observe(step.clone()).unwrap());
+            early.iter().for_each(|step| ours.observe(step).unwrap());
             let bytes = postcard::to_allocvec(&ours).unwrap();
             let mut restored: ConstrainedQ = postcard::from_bytes(&bytes).unwrap();
             for step in late {
-                ours.observe(step.clone()).unwrap();
-                restored.observe(step.clone()).unwrap();
+                ours.observe(step).unwrap();
+                restored.observe(step).unwrap();
             }
             assert_eq!(ours.q, restored.q, "{rows} rows, shape {shape}");
             assert!(ours.updates() > 5 && ours.q != Matrix3::identity() * ours.q[(0, 0)]);

@@ -1,22 +1,26 @@
 //! Dynamic model compensation: the acceleration state is a first-order Gauss-Markov process.
 
-use super::{AccelerationModel, Adaptation, FilterEntry, Law, Search, Setup};
-use crate::FilterError;
+use super::adaptation::{Adaptation, Setup};
+use super::entry::{FilterEntry, Motion, Search, Update};
+use crate::dynamics::AccelerationModel;
+use crate::error::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
-use crate::tunable::{Bound, Kind, Preset, Tunable};
+use crate::tunable::{Bound, Kind, Preset, Start, Tunable};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "dmc",
     about: "dynamic model compensation: first-order Gauss-Markov acceleration",
+    motion: Motion::OfFrame,
+    update: Update::Kalman,
     tunables: &[
         Tunable {
             name: "sigma",
             about: "steady standard deviation of the acceleration, per axis",
             kind: Kind::Real {
-                start: None,
+                start: Start::Derived(|scales| scales.disturbance),
                 unit: "m/s2",
                 bound: Bound::Positive,
             },
@@ -25,7 +29,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "time_constant",
             about: "correlation time of the acceleration",
             kind: Kind::Real {
-                start: None,
+                start: Start::Derived(|scales| scales.time),
                 unit: "s",
                 bound: Bound::Positive,
             },
@@ -33,7 +37,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     ],
     presets: &[Preset {
         name: "paper",
-        about: "the scenario's own sigma and correlation time",
+        about: "the mission's own sigma and correlation time",
         sets: &[],
     }],
     search: &[
@@ -49,19 +53,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             high: 1e4,
         },
     ],
-    only: None,
-    build,
 };
-
-fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
-    let sigma = setup.tunables.real("sigma")? / setup.units.acceleration() * setup.off_nominal.sqrt();
-    let beta = setup.units.time / setup.tunables.real("time_constant")?;
-    Ok(Dmc {
-        s: sigma * (2.0 * beta).sqrt(),
-        beta,
-    }
-    .into())
-}
 
 /// First-order Gauss-Markov acceleration.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -70,6 +62,19 @@ pub struct Dmc {
     s: f64,
     /// Decay rate, internal units.
     beta: f64,
+}
+
+impl Dmc {
+    /// # Errors
+    /// When a tunable is out of range.
+    pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        let sigma = setup.tunables.real("sigma")? / setup.units.acceleration() * setup.off_nominal.sqrt();
+        let beta = setup.units.time / setup.tunables.real("time_constant")?;
+        Ok(Self {
+            s: sigma * (2.0 * beta).sqrt(),
+            beta,
+        })
+    }
 }
 
 impl Adaptation for Dmc {

@@ -1,21 +1,24 @@
 //! No adaptation: an acceleration state driven by jerk of constant density. The yardstick for every other law.
 
-use super::{Adaptation, FilterEntry, Law, Search, Setup};
-use crate::FilterError;
+use super::adaptation::{Adaptation, Setup};
+use super::entry::{FilterEntry, Motion, Search, Update};
+use crate::error::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
-use crate::tunable::{Bound, Kind, Preset, Tunable};
+use crate::tunable::{Bound, Kind, Preset, Scales, Start, Tunable};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "fixed_q",
     about: "constant jerk density, acceleration as a state",
+    motion: Motion::OfFrame,
+    update: Update::Kalman,
     tunables: &[Tunable {
         name: "s",
         about: "square root of the jerk density, one number for all axes",
         kind: Kind::Real {
-            start: Some(1e-5),
+            start: Start::Derived(Scales::root_jerk_density),
             unit: "m/s^2.5",
             bound: Bound::Positive,
         },
@@ -23,8 +26,8 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     presets: &[
         Preset {
             name: "paper",
-            about: "s = 1e-5 m/s^2.5",
-            sets: &[("s", "1e-5")],
+            about: "the mission's own s; 1e-5 m/s^2.5 in those of the papers",
+            sets: &[],
         },
         Preset {
             name: "small",
@@ -45,22 +48,23 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             high: 1e-3,
         },
     ],
-    only: None,
-    build,
 };
-
-fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
-    Ok(FixedQ {
-        s: setup.tunables.real("s")? / setup.units.root_jerk_density() * setup.off_nominal.sqrt(),
-    }
-    .into())
-}
 
 /// Constant jerk density.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FixedQ {
     /// Square root of the density, internal units.
     s: f64,
+}
+
+impl FixedQ {
+    /// # Errors
+    /// When a tunable is out of range.
+    pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        Ok(Self {
+            s: setup.tunables.real("s")? / setup.units.root_jerk_density() * setup.off_nominal.sqrt(),
+        })
+    }
 }
 
 impl Adaptation for FixedQ {

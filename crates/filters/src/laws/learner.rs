@@ -1,9 +1,9 @@
 //! How a law with a network learns (Pesce, Silvestrini and Lavagna, Sec. II.A.2 and Algorithm 1), in any world.
 
-use super::network::{Disturbance, Network};
-use super::{Setup, Step};
-use crate::FilterError;
-use crate::scenarios::Measures;
+use super::adaptation::{Setup, Step};
+use super::network::Network;
+use crate::disturbance::Disturbance;
+use crate::error::FilterError;
 use crate::units::Units;
 use nalgebra::{Vector3, Vector6};
 use serde::{Deserialize, Serialize};
@@ -48,10 +48,10 @@ impl Learner {
             network: Network::new(setup)?,
             learning_rate: t.real("learning_rate")?,
             gain_limit: t.real("gain_limit")?,
-            source: match (setup.measures, t.choice("error")?) {
-                (Measures::RangeAndBearing, _) => ErrorSource::Correction,
-                (Measures::RelativeState, 0) => ErrorSource::Innovation,
-                (Measures::RelativeState, _) => ErrorSource::Residual,
+            source: match (setup.state_measured, t.choice("error")?) {
+                (false, _) => ErrorSource::Correction,
+                (true, 0) => ErrorSource::Innovation,
+                (true, _) => ErrorSource::Residual,
             },
             units: setup.units,
             error: Vector3::zeros(),
@@ -73,7 +73,7 @@ impl Learner {
         self.network
             .learn(&(self.error * (seconds * self.learning_rate * held)));
         self.interval = seconds;
-        if step.h.iter().all(|v| *v == 0.0) {
+        if step.measured.is_empty() {
             // Nothing was measured of the target; what the accelerometer corrected is no error of its model.
             self.error = Vector3::zeros();
             return;
@@ -110,10 +110,11 @@ impl Learner {
 mod tests {
     use super::*;
     use crate::laws::{FILTERS, FilterEntry};
-    use crate::state::{Rows, Target, TargetMatrix};
+    use crate::layout::{Layout, Measured, Sensor};
+    use crate::state::{RowVector, Target, TargetMatrix};
     use crate::tunable::{Tunables, Value};
 
-    fn learner(units: Units, measures: Measures, error: usize) -> Learner {
+    fn learner(units: Units, state_measured: bool, error: usize) -> Learner {
         let entry: &FilterEntry = FILTERS.iter().find(|f| f.name == "rbfnn_ekf").unwrap();
         let value = |name: &str, start: Value| match name {
             "learning_rate" => Value::Real(0.3),
@@ -125,17 +126,22 @@ mod tests {
             _ => start,
         };
         let values: Vec<Value> = entry.tunables.iter().map(|t| value(t.name, t.kind.start())).collect();
+        let mission = interface::mission::embedded("leo_venting").unwrap();
+        let told = mission.mission().unwrap().navigation();
         Learner::new(&Setup {
             tunables: Tunables {
                 law: entry.name,
                 declared: entry.tunables,
                 values: &values,
-                scenario: "none",
-                defaults: &[],
+                told: &told,
             },
-            rows: measures.rows(),
-            r: Vector6::repeat(1.0),
-            measures,
+            layout: Layout::new(&[if state_measured {
+                Sensor::Metrology
+            } else {
+                Sensor::Lidar
+            }]),
+            r: RowVector::repeat(1.0),
+            state_measured,
             units,
             off_nominal: 1.0,
             study_seed: 1,
@@ -145,13 +151,11 @@ mod tests {
     }
 
     fn step(dt: f64, correction: Target, innovation: Vector6<f64>) -> Step {
-        Step {
-            dt,
-            f: TargetMatrix::identity(),
-            h: Rows::repeat(1.0),
-            innovation,
-            correction,
-        }
+        let mut step = Step::blank(dt, TargetMatrix::identity());
+        step.measured.mark(0..3);
+        step.innovation = innovation.fixed_resize(0.0);
+        step.correction = correction;
+        step
     }
 
     /// The same motion in other units must teach the same: only the units of the answer differ.
@@ -166,7 +170,7 @@ mod tests {
         let answers: Vec<Disturbance> = [Units::SI, other]
             .into_iter()
             .map(|units| {
-                let mut learner = learner(units, Measures::RangeAndBearing, 0);
+                let mut learner = learner(units, false, 0);
                 let unit = Vector6::from_fn(|i, _| units.of_state(i));
                 let x = si.component_div(&unit);
                 let internal = Target::from_fn(|i, _| if i < 6 { correction[i] / unit[i] } else { 0.0 });
@@ -192,12 +196,8 @@ mod tests {
     #[test]
     fn an_error_teaches_one_sample_later() {
         let (innovation, correction) = (Vector6::repeat(0.5), Target::repeat(0.2));
-        for (measures, error, e) in [
-            (Measures::RelativeState, 0, 0.5),
-            (Measures::RelativeState, 1, 0.5 - 0.2),
-            (Measures::RangeAndBearing, 0, 0.2),
-        ] {
-            let mut learner = learner(Units::SI, measures, error);
+        for (state_measured, error, e) in [(true, 0, 0.5), (true, 1, 0.5 - 0.2), (false, 0, 0.2)] {
+            let mut learner = learner(Units::SI, state_measured, error);
             let x = Vector6::zeros();
             learner.look_ahead(&x);
             let start = learner.disturbance().d;
@@ -216,17 +216,17 @@ mod tests {
             let gain = moved / (2.0 * 0.3 * e);
             assert!(
                 gain.iter().all(|g| (1.0 / 60.0..1.3 / 60.0).contains(g)),
-                "{measures:?}: {gain}"
+                "{state_measured}: {gain}"
             );
         }
     }
 
     #[test]
     fn a_lost_sample_teaches_nothing() {
-        let mut learner = learner(Units::SI, Measures::RangeAndBearing, 0);
+        let mut learner = learner(Units::SI, false, 0);
         learner.look_ahead(&Vector6::zeros());
         let lost = Step {
-            h: Rows::zeros(),
+            measured: Measured::default(),
             ..step(1.0, Target::repeat(0.2), Vector6::zeros())
         };
         learner.observe(&lost);

@@ -9,13 +9,14 @@
 //! * `linearisation`: *printed* feeds c to D diag(2 s), whose fixed point lies at half of q; *consistent* linearises
 //!   about the predicted s, feeding c + D q(s).
 
+use super::adaptation::{Adaptation, Setup, Step};
 use super::correlation::{DIAGONAL, Regression};
-use super::window::{M_B, READING, RESIDUALS, WHITEN, Window};
-use super::{Adaptation, FilterEntry, Law, Search, Setup, Step};
-use crate::FilterError;
+use super::entry::{FilterEntry, Motion, Search, Update};
+use super::window::{M_B, READING, RESIDUALS, WHITEN, Window, regression_variance};
+use crate::error::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
-use crate::tunable::{Bound, Kind, Preset, Tunable};
+use crate::tunable::{Bound, Kind, Preset, Scales, Start, Tunable};
 use nalgebra::{Matrix3, Vector3};
 use numerics::{Source, spd, stream};
 use rand_distr::{Distribution, StandardNormal};
@@ -24,6 +25,8 @@ use serde::{Deserialize, Serialize};
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "milton",
     about: "innovation correlation adapts the jerk density (Mamich and Zanetti)",
+    motion: Motion::OfFrame,
+    update: Update::Kalman,
     tunables: &[
         M_B,
         RESIDUALS,
@@ -37,7 +40,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "r_w",
             about: "measurement noise of the adaptation, R_w = r_w I, in the units the law adapts in",
             kind: Kind::Real {
-                start: None,
+                start: Start::Derived(regression_variance),
                 unit: "",
                 bound: Bound::Positive,
             },
@@ -46,7 +49,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "q_w",
             about: "process noise of the adaptation per update, Q_w = q_w I, in the units the law adapts in",
             kind: Kind::Real {
-                start: None,
+                start: Start::Derived(|scales| start_variance(scales) / 100.0),
                 unit: "",
                 bound: Bound::Positive,
             },
@@ -55,7 +58,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "psi0",
             about: "initial variance of s, Psi_0 = psi0 I, in the units the law adapts in",
             kind: Kind::Real {
-                start: None,
+                start: Start::Derived(start_variance),
                 unit: "",
                 bound: Bound::Positive,
             },
@@ -64,7 +67,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "s0",
             about: "mean of the random start of s, all axes",
             kind: Kind::Real {
-                start: None,
+                start: Start::Derived(Scales::root_jerk_density),
                 unit: "m/s^2.5",
                 bound: Bound::NonNegative,
             },
@@ -111,29 +114,11 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             high: 1e-3,
         },
     ],
-    only: None,
-    build,
 };
 
-fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
-    let t = &setup.tunables;
-    let psi0 = t.real("psi0")?;
-    let s0 = t.real("s0")? / setup.units.root_jerk_density() * setup.off_nominal.sqrt();
-    let mut generator = stream(setup.study_seed, setup.run, Source::AdaptationStart);
-    let s = Vector3::from_fn(|_, _| {
-        let w: f64 = StandardNormal.sample(&mut generator);
-        s0 + psi0.sqrt() * w
-    });
-    Ok(Milton {
-        window: Window::new(setup)?,
-        about_prediction: t.choice("linearisation")? == 1,
-        r_w: t.real("r_w")?,
-        q_w: t.real("q_w")?,
-        s,
-        information: Matrix3::identity() / psi0,
-        updates: 0,
-    }
-    .into())
+/// Variance of s at the start, internal units: as large as the square of its mean.
+fn start_variance(scales: &Scales) -> f64 {
+    (scales.root_jerk_density() / scales.units.root_jerk_density()).powi(2)
 }
 
 /// The law and its memory.
@@ -150,6 +135,28 @@ pub struct Milton {
 }
 
 impl Milton {
+    /// # Errors
+    /// When a tunable is out of range.
+    pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        let t = &setup.tunables;
+        let psi0 = t.real("psi0")?;
+        let s0 = t.real("s0")? / setup.units.root_jerk_density() * setup.off_nominal.sqrt();
+        let mut generator = stream(setup.study_seed, setup.run, Source::AdaptationStart);
+        let s = Vector3::from_fn(|_, _| {
+            let w: f64 = StandardNormal.sample(&mut generator);
+            s0 + psi0.sqrt() * w
+        });
+        Ok(Self {
+            window: Window::new(setup)?,
+            about_prediction: t.choice("linearisation")? == 1,
+            r_w: t.real("r_w")?,
+            q_w: t.real("q_w")?,
+            s,
+            information: Matrix3::identity() / psi0,
+            updates: 0,
+        })
+    }
+
     /// Eq. (29) with the regression c = D q, q = s * s.
     fn learn(&mut self, regression: &Regression<3>) -> Result<(), FilterError> {
         let failed = FilterError::InformationNotSpd {
@@ -195,8 +202,8 @@ impl Adaptation for Milton {
         jerk::process_noise(&self.s.component_mul(&self.s), dt)
     }
 
-    fn observe(&mut self, step: Step) -> Result<(), FilterError> {
-        match self.window.push(&step, &DIAGONAL) {
+    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
+        match self.window.push(step, &DIAGONAL) {
             Some(regression) => self.learn(&regression),
             None => Ok(()),
         }
@@ -218,13 +225,12 @@ impl Adaptation for Milton {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::Law;
     use crate::laws::correlation::{self, Sampled};
-    use crate::scenarios::Measures;
-    use crate::state::{Rows, Target};
+    use crate::layout::{Layout, Measured, Sensor};
+    use crate::state::{RowMatrix, RowVector, Rows, Target};
     use crate::tunable::{Tunables, Value};
     use crate::units::Units;
-    use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
+    use nalgebra::{DMatrix, DVector};
     use numerics::{Generator, expm};
 
     const BUFFER: usize = 4;
@@ -266,26 +272,28 @@ mod tests {
             Value::Real(tuning.psi0),
             Value::Real(tuning.s0),
         ];
-        let built = (ENTRY.build)(&Setup {
+        let told = told();
+        Milton::new(&Setup {
             tunables: Tunables {
                 law: ENTRY.name,
                 declared: ENTRY.tunables,
                 values: &values,
-                scenario: "none",
-                defaults: &[],
+                told: &told,
             },
-            rows: r.len(),
-            r: Vector6::from_fn(|row, _| r.get(row).copied().unwrap_or(0.0)),
-            measures: Measures::RangeAndBearing,
+            layout: Layout::new(&[if r.len() == 3 { Sensor::Lidar } else { Sensor::Metrology }]),
+            r: RowVector::from_fn(|row, _| r.get(row).copied().unwrap_or(0.0)),
+            state_measured: false,
             units: Units::SI,
             off_nominal: 1.0,
             study_seed: 1,
             run,
-        });
-        match built.unwrap() {
-            Law::Milton(law) => *law,
-            other => panic!("built {other:?}"),
-        }
+        })
+        .unwrap()
+    }
+
+    fn told() -> interface::Navigation {
+        let mission = interface::mission::embedded("leo_venting").unwrap();
+        mission.mission().unwrap().navigation()
     }
 
     /// Samples of three integrators seen through rows that turn, corrected by arbitrary amounts.
@@ -303,19 +311,18 @@ mod tests {
                 h.view_mut((0, 0), (rows, rows))
                     .iter_mut()
                     .for_each(|entry| *entry = normal(g));
-                Step {
-                    dt: 1.0,
-                    f,
-                    h,
-                    innovation: Vector6::from_fn(|row, _| if row < rows { normal(g) } else { 0.0 }),
-                    correction: Target::from_fn(|_, _| 0.1 * normal(g)),
-                }
+                let mut step = Step::blank(1.0, f);
+                step.measured.mark(0..rows);
+                step.h = h;
+                step.innovation = RowVector::from_fn(|row, _| if row < rows { normal(g) } else { 0.0 });
+                step.correction = Target::from_fn(|_, _| 0.1 * normal(g));
+                step
             })
             .collect()
     }
 
     fn fed(mut law: Milton, steps: impl IntoIterator<Item = Step>) -> Milton {
-        steps.into_iter().for_each(|step| law.observe(step).unwrap());
+        steps.into_iter().for_each(|step| law.observe(&step).unwrap());
         law
     }
 
@@ -418,7 +425,7 @@ mod tests {
         let mut seen = Vec::new();
         for (k, step) in (1..).zip(steps(g, 40)) {
             let before = (ours.s, ours.updates);
-            ours.observe(step).unwrap();
+            ours.observe(&step).unwrap();
             if ours.updates > before.1 {
                 seen.push(k);
             } else {
@@ -435,7 +442,8 @@ mod tests {
         let g = &mut stream(23, 0, Source::Lidar);
         let blind = steps(g, 2 * BUFFER + 1).into_iter().map(|step| Step {
             h: Rows::zeros(),
-            innovation: Vector6::zeros(),
+            innovation: RowVector::zeros(),
+            measured: Measured::default(),
             ..step
         });
         let start = law(TUNING, &[1.0; 3], 0);
@@ -488,7 +496,7 @@ mod tests {
     #[test]
     fn whitening_takes_out_the_units_of_the_rows() {
         let (r, units) = ([0.5, 0.02, 0.3, 1e-4, 3e-4, 2e-4], [10.0, 0.1, 3.0, 1e3, 0.5, 20.0]);
-        let rescale = Matrix6::from_diagonal(&Vector6::from(units));
+        let rescale = RowMatrix::from_diagonal(&RowVector::from_fn(|row, _| units.get(row).copied().unwrap_or(1.0)));
         let rescaled_r: Vec<f64> = r.iter().zip(units).map(|(r, unit)| r * unit * unit).collect();
         for (rows, whiten) in [(3, true), (3, false), (6, true), (6, false)] {
             let recorded = steps_of(rows, &mut stream(25, 0, Source::Lidar), 3 * BUFFER);

@@ -1,9 +1,11 @@
 //! The radial-basis network that learns an unmodelled acceleration (Pesce, Silvestrini and Lavagna, Sec. II.A); SI.
 
-use super::{Search, Setup};
-use crate::FilterError;
-use crate::tunable::{Bound, Kind, Tunable};
-use nalgebra::{SMatrix, SVector, Vector3, Vector6};
+use super::adaptation::Setup;
+use super::entry::Search;
+use crate::disturbance::Disturbance;
+use crate::error::FilterError;
+use crate::tunable::{Bound, Kind, Scales, Start, Tunable};
+use nalgebra::{SMatrix, Vector3, Vector6};
 use numerics::{Source, stream};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
@@ -26,27 +28,27 @@ const TUNABLES: [Tunable; 9] = [
     Tunable {
         name: "shape",
         about: "sharpness of the Gaussians, eta of Eq. (3), over the scaled inputs",
-        kind: real(Some(0.06), "1", Bound::Positive),
+        kind: real(Start::Fixed(0.06), "1", Bound::Positive),
     },
     Tunable {
         name: "learning_rate",
         about: "eta / xi of Eq. (17): acceleration per velocity error and second",
-        kind: real(None, "1/s2", Bound::NonNegative),
+        kind: real(Start::Derived(|_| 0.165), "1/s2", Bound::NonNegative),
     },
     Tunable {
         name: "gain_limit",
         about: "most of a velocity error that one step of learning turns into acceleration over the interval; beyond some tenths the loop of network and filter is unstable, at long intervals or with few neurons",
-        kind: real(Some(0.05), "1", Bound::Positive),
+        kind: real(Start::Fixed(0.05), "1", Bound::Positive),
     },
     Tunable {
         name: "relaxation",
         about: "factor on the weights at each step, psi of Eq. (18)",
-        kind: real(None, "1", Bound::Fraction),
+        kind: real(Start::Derived(relaxation), "1", Bound::Fraction),
     },
     Tunable {
         name: "start_weights",
         about: "standard deviation of the random weights at the start",
-        kind: real(Some(1e-6), "m/s2", Bound::NonNegative),
+        kind: real(Start::Fixed(1e-6), "m/s2", Bound::NonNegative),
     },
     Tunable {
         name: "error",
@@ -59,14 +61,31 @@ const TUNABLES: [Tunable; 9] = [
     Tunable {
         name: "scale_position",
         about: "position that makes an input of one; the centres lie between -1 and 1",
-        kind: real(None, "m", Bound::Positive),
+        kind: real(Start::Derived(input_scale), "m", Bound::Positive),
     },
     Tunable {
         name: "scale_velocity",
         about: "velocity that makes an input of one",
-        kind: real(None, "m/s", Bound::Positive),
+        kind: real(
+            Start::Derived(|scales| input_scale(scales) / ORBITAL_TIME),
+            "m/s",
+            Bound::Positive,
+        ),
     },
 ];
+
+/// Inverse rate of a low orbit, s: relative motion covers its own size in about this time.
+const ORBITAL_TIME: f64 = 1000.0;
+
+/// What was learnt fades in five times the disturbance's own length, so that it outlives one and does not stay.
+fn relaxation(scales: &Scales) -> f64 {
+    (-scales.period / (5.0 * scales.time)).exp()
+}
+
+/// A hundred initial deviations: the network then sees all of an approach that starts about as far away as it is known.
+fn input_scale(scales: &Scales) -> f64 {
+    100.0 * scales.position
+}
 
 /// The network's tunables and then a law's `own`; ALL is the number of both.
 pub(super) const fn with<const OWN: usize, const ALL: usize>(own: [Tunable; OWN]) -> [Tunable; ALL] {
@@ -101,7 +120,7 @@ pub(super) const SEARCH_SHAPE: Search = Search {
     high: 1.0,
 };
 
-const fn real(start: Option<f64>, unit: &'static str, bound: Bound) -> Kind {
+const fn real(start: Start, unit: &'static str, bound: Bound) -> Kind {
     Kind::Real { start, unit, bound }
 }
 
@@ -119,26 +138,6 @@ pub struct Network {
     weights: Vec<Vector3<f64>>,
     /// The normalised basis where it was evaluated last.
     phi: Vec<f64>,
-}
-
-/// An acceleration and its partials.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Disturbance {
-    /// Acceleration, 3.
-    pub d: Vector3<f64>,
-    /// Partials by relative position and velocity, 3x6.
-    pub by_x: SMatrix<f64, 3, INPUTS>,
-}
-
-impl Disturbance {
-    /// Acts over `dt` on the velocity of a state that begins with relative position and velocity: x gains dt G d and F gains
-    /// dt G dd/dx, Eqs. (21), (22) and (26).
-    pub fn act<const D: usize>(&self, x: &mut SVector<f64, D>, f: &mut SMatrix<f64, D, D>, dt: f64) {
-        let mut velocity = x.fixed_rows_mut::<3>(3);
-        velocity += self.d * dt;
-        let mut rows = f.fixed_view_mut::<3, INPUTS>(3, 0);
-        rows += self.by_x * dt;
-    }
 }
 
 impl Network {

@@ -1,24 +1,29 @@
 //! A full-state observer of constant gain with the learning network (Pesce, Silvestrini and Lavagna, Sec. III.B.1).
 
+use super::adaptation::{Adaptation, Setup, Step};
+use super::entry::{FilterEntry, Motion, Search, Update};
 use super::learner::Learner;
-use super::network::{self, Disturbance};
-use super::{AccelerationModel, Adaptation, FilterEntry, Law, Only, Search, Setup, Step};
-use crate::FilterError;
-use crate::scenarios::Measures;
+use super::network;
+use crate::disturbance::Disturbance;
+use crate::dynamics::AccelerationModel;
+use crate::error::FilterError;
 use crate::state::TargetMatrix;
-use crate::tunable::{Bound, Kind, Preset, Tunable};
+use crate::tunable::{Bound, Kind, Preset, Start, Tunable};
+use crate::update::ConstantGain;
 use nalgebra::Vector6;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "observer",
     about: "constant-gain observer with a learning radial-basis network, no covariance (Pesce, Silvestrini and Lavagna)",
+    motion: Motion::OfFrame,
+    update: Update::ConstantGain(gain),
     tunables: &network::with::<2, 11>([
         Tunable {
             name: "k_position",
             about: "gain on position, K_h of Eq. (33)",
             kind: Kind::Real {
-                start: Some(0.42),
+                start: Start::Fixed(0.42),
                 unit: "1/s",
                 bound: Bound::NonNegative,
             },
@@ -27,7 +32,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "k_velocity",
             about: "gain on velocity, K_h of Eq. (33)",
             kind: Kind::Real {
-                start: Some(0.025),
+                start: Start::Fixed(0.025),
                 unit: "1/s",
                 bound: Bound::NonNegative,
             },
@@ -52,29 +57,31 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             high: 10.0,
         },
     ],
-    only: Some(Only {
-        measures: Measures::RelativeState,
-        why: "its gain multiplies a measurement of the whole state (H = I), which range and angles are not",
-    }),
-    build,
 };
 
-fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
+/// The gain that the tunables say, detuned if the study says so; internal units.
+fn gain(setup: &Setup<'_>) -> Result<ConstantGain, FilterError> {
     let gain = |name: &str| Ok::<f64, FilterError>(setup.tunables.real(name)? * setup.off_nominal * setup.units.time);
-    Ok(Observer {
-        learner: Learner::new(setup)?,
-        k_position: gain("k_position")?,
-        k_velocity: gain("k_velocity")?,
-    }
-    .into())
+    Ok(ConstantGain {
+        position: gain("k_position")?,
+        velocity: gain("k_velocity")?,
+    })
 }
 
-/// The law and its memory; internal units.
+/// The network; an observer has no process noise to adapt.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Observer {
     learner: Learner,
-    k_position: f64,
-    k_velocity: f64,
+}
+
+impl Observer {
+    /// # Errors
+    /// When a tunable is out of range.
+    pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        Ok(Self {
+            learner: Learner::new(setup)?,
+        })
+    }
 }
 
 impl Adaptation for Observer {
@@ -86,14 +93,8 @@ impl Adaptation for Observer {
         TargetMatrix::zeros()
     }
 
-    /// 1 - exp(-k h), which is what Eq. (33) does to a held measurement over the interval h; Euler's k h diverges when large.
-    fn gain(&self, dt: f64) -> Option<Vector6<f64>> {
-        let (position, velocity) = (-(-self.k_position * dt).exp_m1(), -(-self.k_velocity * dt).exp_m1());
-        Some(Vector6::from_fn(|i, _| if i < 3 { position } else { velocity }))
-    }
-
-    fn observe(&mut self, step: Step) -> Result<(), FilterError> {
-        self.learner.observe(&step);
+    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
+        self.learner.observe(step);
         Ok(())
     }
 

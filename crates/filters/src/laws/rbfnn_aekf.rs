@@ -4,19 +4,24 @@
 //! when alpha is small: the filter then trusts some combinations of states without reason, while errors and innovations still
 //! look healthy and only the NEES shows it. `adaptation = diagonal` keeps the variances only, above a floor.
 
+use super::adaptation::{Adaptation, Setup, Step};
+use super::entry::{FilterEntry, Motion, Search, Update};
 use super::learner::Learner;
-use super::network::{self, Disturbance};
+use super::network;
 use super::step_noise::{self, Q_POSITION, Q_VELOCITY};
-use super::{AccelerationModel, Adaptation, FilterEntry, Law, Search, Setup, Step};
-use crate::FilterError;
+use crate::disturbance::Disturbance;
+use crate::dynamics::AccelerationModel;
+use crate::error::FilterError;
 use crate::state::TargetMatrix;
-use crate::tunable::{Bound, Kind, Preset, Tunable};
+use crate::tunable::{Bound, Kind, Preset, Start, Tunable};
 use nalgebra::Vector6;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "rbfnn_aekf",
     about: "a radial-basis network learns the disturbance, innovations adapt Q (Pesce, Silvestrini and Lavagna)",
+    motion: Motion::OfFrame,
+    update: Update::Kalman,
     tunables: &network::with::<6, 15>([
         Q_POSITION,
         Q_VELOCITY,
@@ -24,7 +29,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "alpha",
             about: "forgetting factor of Q at each sample, Eq. (27)",
             kind: Kind::Real {
-                start: Some(0.999),
+                start: Start::Fixed(0.999),
                 unit: "1",
                 bound: Bound::Fraction,
             },
@@ -41,7 +46,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "floor_position",
             about: "smallest position variance per second under diagonal adaptation",
             kind: Kind::Real {
-                start: Some(1e-12),
+                start: Start::Fixed(1e-12),
                 unit: "m2",
                 bound: Bound::NonNegative,
             },
@@ -50,7 +55,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             name: "floor_velocity",
             about: "smallest velocity variance per second under diagonal adaptation",
             kind: Kind::Real {
-                start: Some(1e-16),
+                start: Start::Fixed(1e-16),
                 unit: "m2/s2",
                 bound: Bound::NonNegative,
             },
@@ -91,25 +96,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             high: 1.0,
         },
     ],
-    only: None,
-    build,
 };
-
-fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
-    let t = &setup.tunables;
-    let floor = step_noise::diagonal(
-        t.real("floor_position")? * setup.units.time / setup.units.length.powi(2),
-        t.real("floor_velocity")? * setup.units.time / setup.units.velocity().powi(2),
-    );
-    Ok(RbfnnAekf {
-        learner: Learner::new(setup)?,
-        q: step_noise::rate(setup)?,
-        alpha: t.real("alpha")?,
-        floor: (t.choice("adaptation")? == 1).then_some(floor),
-        updates: 0,
-    }
-    .into())
-}
 
 /// The law and its memory; internal units.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -123,6 +110,25 @@ pub struct RbfnnAekf {
     updates: i32,
 }
 
+impl RbfnnAekf {
+    /// # Errors
+    /// When a tunable is out of range.
+    pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        let t = &setup.tunables;
+        let floor = step_noise::diagonal(
+            t.real("floor_position")? * setup.units.time / setup.units.length.powi(2),
+            t.real("floor_velocity")? * setup.units.time / setup.units.velocity().powi(2),
+        );
+        Ok(Self {
+            learner: Learner::new(setup)?,
+            q: step_noise::rate(setup)?,
+            alpha: t.real("alpha")?,
+            floor: (t.choice("adaptation")? == 1).then_some(floor),
+            updates: 0,
+        })
+    }
+}
+
 impl Adaptation for RbfnnAekf {
     fn acceleration(&self) -> AccelerationModel {
         AccelerationModel::Absent
@@ -132,10 +138,10 @@ impl Adaptation for RbfnnAekf {
         self.q * dt
     }
 
-    fn observe(&mut self, step: Step) -> Result<(), FilterError> {
-        self.learner.observe(&step);
+    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
+        self.learner.observe(step);
         // A lost sample says nothing about Q.
-        if step.h.iter().all(|v| *v == 0.0) {
+        if step.measured.is_empty() {
             return Ok(());
         }
         // K delta is what the update added to position and velocity.

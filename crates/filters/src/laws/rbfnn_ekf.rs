@@ -1,10 +1,13 @@
 //! A network learns the unmodelled acceleration, Q stays: the peer of the adaptive filter in Pesce, Silvestrini and Lavagna.
 
+use super::adaptation::{Adaptation, Setup, Step};
+use super::entry::{FilterEntry, Motion, Update};
 use super::learner::Learner;
-use super::network::{self, Disturbance};
+use super::network;
 use super::step_noise::{self, Q_POSITION, Q_VELOCITY};
-use super::{AccelerationModel, Adaptation, FilterEntry, Law, Setup, Step};
-use crate::FilterError;
+use crate::disturbance::Disturbance;
+use crate::dynamics::AccelerationModel;
+use crate::error::FilterError;
 use crate::state::TargetMatrix;
 use crate::tunable::Preset;
 use nalgebra::Vector6;
@@ -13,6 +16,8 @@ use serde::{Deserialize, Serialize};
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "rbfnn_ekf",
     about: "a radial-basis network learns the disturbance, constant Q (Pesce, Silvestrini and Lavagna)",
+    motion: Motion::OfFrame,
+    update: Update::Kalman,
     tunables: &network::with::<2, 11>([Q_POSITION, Q_VELOCITY]),
     presets: &[
         Preset {
@@ -37,17 +42,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         step_noise::SEARCH_Q_POSITION,
         step_noise::SEARCH_Q_VELOCITY,
     ],
-    only: None,
-    build,
 };
-
-fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
-    Ok(RbfnnEkf {
-        learner: Learner::new(setup)?,
-        q: step_noise::rate(setup)?,
-    }
-    .into())
-}
 
 /// The law and its memory; internal units.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -55,6 +50,17 @@ pub struct RbfnnEkf {
     learner: Learner,
     /// Process noise per unit of time, 9x9.
     q: TargetMatrix,
+}
+
+impl RbfnnEkf {
+    /// # Errors
+    /// When a tunable is out of range.
+    pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        Ok(Self {
+            learner: Learner::new(setup)?,
+            q: step_noise::rate(setup)?,
+        })
+    }
 }
 
 impl Adaptation for RbfnnEkf {
@@ -66,8 +72,8 @@ impl Adaptation for RbfnnEkf {
         self.q * dt
     }
 
-    fn observe(&mut self, step: Step) -> Result<(), FilterError> {
-        self.learner.observe(&step);
+    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
+        self.learner.observe(step);
         Ok(())
     }
 

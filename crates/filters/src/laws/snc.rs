@@ -1,27 +1,31 @@
 //! State noise compensation: no acceleration state, white acceleration of constant density.
 
-use super::{AccelerationModel, Adaptation, FilterEntry, Law, Search, Setup};
-use crate::FilterError;
+use super::adaptation::{Adaptation, Setup};
+use super::entry::{FilterEntry, Motion, Search, Update};
+use crate::dynamics::AccelerationModel;
+use crate::error::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
-use crate::tunable::{Bound, Kind, Preset, Tunable};
+use crate::tunable::{Bound, Kind, Preset, Scales, Start, Tunable};
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "snc",
     about: "state noise compensation: constant white-acceleration density, no acceleration state",
+    motion: Motion::OfFrame,
+    update: Update::Kalman,
     tunables: &[Tunable {
         name: "q",
         about: "square root of the acceleration density, one number for all axes",
         kind: Kind::Real {
-            start: None,
+            start: Start::Derived(Scales::root_acceleration_density),
             unit: "m/s^1.5",
             bound: Bound::Positive,
         },
     }],
     presets: &[Preset {
         name: "paper",
-        about: "the scenario's own q",
+        about: "the mission's own q",
         sets: &[],
     }],
     search: &[
@@ -32,23 +36,24 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             high: 1e-2,
         },
     ],
-    only: None,
-    build,
 };
-
-fn build(setup: &Setup<'_>) -> Result<Law, FilterError> {
-    let unit = setup.units.velocity() / setup.units.time.sqrt();
-    Ok(Snc {
-        q: setup.tunables.real("q")? / unit * setup.off_nominal.sqrt(),
-    }
-    .into())
-}
 
 /// Constant white-acceleration density.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Snc {
     /// Square root of the density, internal units.
     q: f64,
+}
+
+impl Snc {
+    /// # Errors
+    /// When a tunable is out of range.
+    pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        let unit = setup.units.velocity() / setup.units.time.sqrt();
+        Ok(Self {
+            q: setup.tunables.real("q")? / unit * setup.off_nominal.sqrt(),
+        })
+    }
 }
 
 impl Adaptation for Snc {

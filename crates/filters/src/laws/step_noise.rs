@@ -1,16 +1,20 @@
 //! Process noise given as variances of position and velocity per second, as the network filters have it.
+//!
+//! Their starts are those of white acceleration of density q: in a second it adds q to the variance of velocity, and in a sample
+//! period T it adds q T^3 / 3 to that of position.
 
-use super::{Search, Setup};
-use crate::FilterError;
+use super::adaptation::Setup;
+use super::entry::Search;
+use crate::error::FilterError;
 use crate::state::TargetMatrix;
-use crate::tunable::{Bound, Kind, Tunable};
+use crate::tunable::{Bound, Kind, Start, Tunable};
 
 /// Tunable `q_position`.
 pub(super) const Q_POSITION: Tunable = Tunable {
     name: "q_position",
     about: "position variance that process noise adds per second, per axis",
     kind: Kind::Real {
-        start: None,
+        start: Start::Derived(|scales| scales.root_acceleration_density().powi(2) * scales.period.powi(2) / 3.0),
         unit: "m2",
         bound: Bound::NonNegative,
     },
@@ -21,7 +25,7 @@ pub(super) const Q_VELOCITY: Tunable = Tunable {
     name: "q_velocity",
     about: "velocity variance that process noise adds per second, per axis",
     kind: Kind::Real {
-        start: None,
+        start: Start::Derived(|scales| scales.root_acceleration_density().powi(2)),
         unit: "m2/s2",
         bound: Bound::NonNegative,
     },

@@ -1,9 +1,10 @@
 //! The buffer of samples that laws on innovation correlation share: when it is full it yields one regression.
 
+use super::adaptation::{Setup, Step};
 use super::correlation::{self, Entry, Regression, Sampled};
-use super::{Setup, Step};
-use crate::FilterError;
-use crate::tunable::{Kind, Tunable};
+use crate::error::FilterError;
+use crate::state::MAX_ROWS;
+use crate::tunable::{Kind, Scales, Tunable};
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
@@ -43,11 +44,18 @@ pub(super) const WHITEN: Tunable = Tunable {
     kind: Kind::Boolean { start: false },
 };
 
-/// Samples not yet adapted to, of measurements with up to three rows or up to six.
+/// Variance of one entry of the autocorrelation, which is a product of two lengths, in internal units: of the size that noise
+/// alone gives it.
+pub(super) fn regression_variance(scales: &Scales) -> f64 {
+    (scales.length / scales.units.length).powi(4)
+}
+
+/// Samples not yet adapted to, of missions with up to three rows, up to six, or more.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) enum Window {
     Three(Samples<3>),
     Six(Samples<6>),
+    All(Samples<MAX_ROWS>),
 }
 
 impl Window {
@@ -56,10 +64,10 @@ impl Window {
     /// # Errors
     /// When one of them is out of range.
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
-        Ok(if setup.rows <= 3 {
-            Self::Three(Samples::new(setup)?)
-        } else {
-            Self::Six(Samples::new(setup)?)
+        Ok(match setup.layout.rows() {
+            ..=3 => Self::Three(Samples::new(setup)?),
+            4..=6 => Self::Six(Samples::new(setup)?),
+            _ => Self::All(Samples::new(setup)?),
         })
     }
 
@@ -73,6 +81,7 @@ impl Window {
         match self {
             Self::Three(samples) => samples.push(step, entries),
             Self::Six(samples) => samples.push(step, entries),
+            Self::All(samples) => samples.push(step, entries),
         }
     }
 
@@ -81,6 +90,7 @@ impl Window {
         match self {
             Self::Three(samples) => samples.skipped,
             Self::Six(samples) => samples.skipped,
+            Self::All(samples) => samples.skipped,
         }
     }
 }

@@ -2,14 +2,24 @@
 
 #![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
 #![allow(missing_docs, reason = "part of test binaries")]
+#![allow(dead_code, reason = "each binary uses its own part")]
 
-use astro::TargetOrbit;
-use filters::ekf::{Dynamics, InitialSigma, Thrust};
+use filters::dynamics::{Drive, Thrust, TwoVehicles, initial_covariance};
 use filters::state::State;
-use filters::{Gravity, Sample, jerk};
-use nalgebra::{Matrix3, Vector3, Vector6};
+use filters::{Gravity, Reading, Sample, SpecificForce, jerk};
+use interface::mission::InitialSigma;
+use nalgebra::{Matrix3, Vector3};
 use numerics::{Generator, Source, spd, stream};
 use rand_distr::{Distribution, StandardNormal};
+
+/// What a filter is told of a mission that comes with the project.
+pub fn navigation(mission: &str) -> filters::Navigation {
+    interface::mission::embedded(mission)
+        .unwrap()
+        .mission()
+        .unwrap()
+        .navigation()
+}
 
 const SIGMA_RANGE: f64 = 0.08;
 const SIGMA_ANGLE: f64 = 0.04 * std::f64::consts::PI / 180.0;
@@ -25,7 +35,7 @@ fn normal3(g: &mut Generator) -> Vector3<f64> {
 
 /// The world that the filter believes in; `s` is the square root of the jerk density.
 pub struct OwnWorld {
-    dynamics: Dynamics,
+    dynamics: TwoVehicles,
     /// True state, SI.
     pub x: State,
     s: f64,
@@ -36,7 +46,7 @@ pub struct OwnWorld {
 impl OwnWorld {
     /// A world and an initial estimate drawn around its truth.
     pub fn new(run: u64, s: f64) -> (Self, State) {
-        let dynamics = Dynamics {
+        let dynamics = TwoVehicles {
             gravity: Gravity::Zonal(astro::earth::FILTER),
             acceleration_decay: 0.0,
             beta: 1.0 / 3600.0,
@@ -51,13 +61,12 @@ impl OwnWorld {
         x.fixed_rows_mut::<3>(12).copy_from_slice(&[0.0, 7350.0, 1970.0]);
         x.fixed_rows_mut::<3>(15).fill(2.943e-6);
         let mut g = stream(11, run, Source::InitialError);
-        let p0 = InitialSigma {
+        let p0 = initial_covariance(&InitialSigma {
             position: 25.0 / 3.0,
             velocity: 0.1,
             acceleration: 1e-9,
             bias: 1e-9,
-        }
-        .covariance();
+        });
         let error = spd::cholesky(&p0).unwrap() * State::from_fn(|_, _| normal(&mut g));
         (
             Self {
@@ -92,7 +101,7 @@ impl OwnWorld {
             alpha_c_bc: before * force(self.k) + bias,
             dcm_n_bc: before.transpose(),
         };
-        self.x = self.dynamics.propagate_mean(&self.x, 1.0, Some(&thrust));
+        self.x = self.dynamics.propagate_mean(&self.x, 1.0, &Drive::from(thrust));
         let q = self
             .dynamics
             .process_noise(&jerk::process_noise(&Vector3::repeat(self.s * self.s), 1.0), 1.0);
@@ -105,13 +114,10 @@ impl OwnWorld {
         let noise = normal3(&mut self.g).component_mul(&sigma);
         let alpha = dcm_bc_n * force(self.k) + self.x.fixed_rows::<3>(15) + normal3(&mut self.g) * SIGMA_ACCELEROMETER;
         Sample {
-            count: self.k,
-            time: f64::from(self.k),
-            lidar: Some(sensors::lidar::measure(&rho) + noise),
-            metrology: None,
-            target_orbit: TargetOrbit::from_vector(&Vector6::zeros()),
-            alpha_c_bc: alpha,
+            lidar: Reading::Seen(sensors::lidar::measure(&rho) + noise),
+            accelerometer: Some(SpecificForce::Instant(alpha)),
             dcm_bc_n,
+            ..Sample::blank(self.k, f64::from(self.k))
         }
     }
 }

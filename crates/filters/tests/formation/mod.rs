@@ -6,9 +6,9 @@
 
 use crate::common::OwnWorld;
 use astro::{ClohessyWiltshire, Elements, J2RelativeMotion, Lvlh, TargetOrbit};
-use filters::Sample;
 use filters::state::State;
-use nalgebra::{Matrix3, SVector, Vector3, Vector6};
+use filters::{Reading, Sample};
+use nalgebra::{SVector, Vector6};
 use numerics::{Generator, Source, rk4, stream};
 use rand_distr::{Distribution, StandardNormal};
 
@@ -96,13 +96,9 @@ impl World for Formation {
         self.x = rk4::step(0.0, &self.x, 1.0, |_, y| model.rate(y));
         self.k += 1;
         Sample {
-            count: self.k,
-            time: f64::from(self.k),
-            lidar: None,
-            metrology: Some(self.measured()),
+            metrology: Reading::Seen(self.measured()),
             target_orbit: self.orbit(),
-            alpha_c_bc: Vector3::zeros(),
-            dcm_bc_n: Matrix3::identity(),
+            ..Sample::blank(self.k, f64::from(self.k))
         }
     }
 

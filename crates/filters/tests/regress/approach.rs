@@ -1,9 +1,8 @@
 //! Two vehicles in the gravity of a mission, seen by LiDAR; the chaser thrusts for ten seconds.
 
 use super::formation::World;
-use astro::TargetOrbit;
-use filters::Sample;
 use filters::state::State;
+use filters::{Reading, Sample, SpecificForce};
 use nalgebra::{SVector, Vector3, Vector6};
 use numerics::{Generator, Source, rk4, stream};
 use rand_distr::{Distribution, StandardNormal};
@@ -80,13 +79,10 @@ impl World for Approach {
         let lidar = sensors::lidar::measure(&(astro::frames::lidar_from_body() * dcm_bc_n * r_tc)) + noise;
         let alpha_c_bc = dcm_bc_n * self.force() + BIAS + self.normal() * 3.4e-6;
         Sample {
-            count: self.k,
-            time: f64::from(self.k),
-            lidar: Some(lidar),
-            metrology: None,
-            target_orbit: TargetOrbit::from_vector(&Vector6::zeros()),
-            alpha_c_bc,
+            lidar: Reading::Seen(lidar),
+            accelerometer: Some(SpecificForce::Instant(alpha_c_bc)),
             dcm_bc_n,
+            ..Sample::blank(self.k, f64::from(self.k))
         }
     }
 

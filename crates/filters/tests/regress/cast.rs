@@ -1,30 +1,34 @@
 //! Who runs where.
 
 use super::approach::Approach;
+use super::common::navigation;
 use super::formation::{Formation, World};
 use astro::cr3bp::Cr3bpSystem;
 use filters::laws::FILTERS;
-use filters::scenarios::SCENARIOS;
 use filters::state::State;
-use filters::{Navigator, Sample, Settings};
+use filters::{Navigator, Reading, Sample, Settings};
+use interface::mission::Embedded;
 use nalgebra::Vector6;
 
 /// Every filter in every mission in which it has a meaning.
 pub fn everywhere() -> impl Iterator<Item = (String, Navigator, Box<dyn World>, State)> {
-    SCENARIOS.iter().enumerate().flat_map(|(scenario, entry)| {
-        FILTERS.iter().enumerate().filter_map(move |(filter, law)| {
-            law.no_meaning_in(entry).is_none().then(|| {
-                let settings = Settings {
-                    scenario,
-                    filter,
-                    run: 3,
-                    ..Settings::default()
-                };
-                let (world, start) = world(entry.name);
-                let nav = Navigator::new(&settings, 0.0).unwrap();
-                (format!("{} in {}", law.name, entry.name), nav, world, start)
-            })
-        })
+    Embedded::scenarios().flat_map(|entry| {
+        let told = navigation(entry.name);
+        let meant = FILTERS
+            .iter()
+            .enumerate()
+            .filter(|(_, law)| law.no_meaning_in(&told).is_none());
+        let runs = meant.map(|(filter, law)| {
+            let settings = Settings {
+                filter,
+                run: 3,
+                ..Settings::default()
+            };
+            let (world, start) = world(entry.name);
+            let nav = Navigator::new(&told, &settings, 0.0).unwrap();
+            (format!("{} in {}", law.name, entry.name), nav, world, start)
+        });
+        runs.collect::<Vec<_>>()
     })
 }
 
@@ -58,5 +62,5 @@ fn world(mission: &str) -> (Box<dyn World>, State) {
 
 /// Nothing is seen of the target.
 pub fn lose(sample: &mut Sample) {
-    (sample.lidar, sample.metrology) = (None, None);
+    (sample.lidar, sample.metrology) = (Reading::Lost, Reading::Lost);
 }

@@ -1,29 +1,17 @@
-//! The extended Kalman filter: the update of any states, some of which may be consider states, and the propagation of the 18
-//! states of a world seen by range and angles, with dual accelerometer use.
-//!
-//! Pure functions of state and covariance; which samples arrive and what a law makes of them is [`crate::Navigator`]'s.
+//! Both vehicles in axes N under gravity, with an accelerometer in the chaser: 18 states (Mamich and Zanetti).
 
-use crate::FilterError;
+use crate::disturbance::Disturbance;
 use crate::gravity::Gravity;
-use crate::laws::network::Disturbance;
-use crate::state::{LidarRows, N, State, StateMatrix, TargetMatrix, idx};
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use crate::state::{State, StateMatrix, TargetMatrix, idx};
+use crate::update::kalman::Gaussian;
+use interface::mission::InitialSigma;
+use nalgebra::{Matrix3, Vector3};
 use numerics::{expm, rk4, spd};
 use serde::{Deserialize, Serialize};
-use std::ops::Range;
-
-/// Mean and covariance of D states, internal units.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Gaussian<const D: usize = N> {
-    /// The states, D.
-    pub x: SVector<f64, D>,
-    /// Their covariance, D x D.
-    pub p: SMatrix<f64, D, D>,
-}
 
 /// The force model of the filter, internal units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Dynamics {
+pub struct TwoVehicles {
     /// Gravity of both vehicles.
     pub gravity: Gravity,
     /// Inverse time constant of the target's unmodelled acceleration; zero for a random walk.
@@ -47,14 +35,34 @@ pub struct Thrust {
     pub dcm_n_bc: Matrix3<f64>,
 }
 
+/// What drives the vehicles over a step beside gravity.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Drive {
+    /// What the accelerometer feels.
+    pub thrust: Option<Thrust>,
+    /// Acceleration of the target that the filter is told of, axes N.
+    pub told_t_n: Vector3<f64>,
+    /// Acceleration of the chaser that the filter is told of and its accelerometer does not feel, axes N.
+    pub told_c_n: Vector3<f64>,
+}
+
+impl From<Thrust> for Drive {
+    fn from(thrust: Thrust) -> Self {
+        Self {
+            thrust: Some(thrust),
+            ..Self::default()
+        }
+    }
+}
+
 fn part(x: &State, slot: std::ops::Range<usize>) -> Vector3<f64> {
     x.fixed_rows::<3>(slot.start).into_owned()
 }
 
-impl Dynamics {
+impl TwoVehicles {
     /// Mean after `dt`: both vehicles by one Runge-Kutta step of Eq. (4), with g of the chaser in its row 5 and no
     /// "v_c dt" term in the mean.
-    pub fn propagate_mean(&self, x: &State, dt: f64, thrust: Option<&Thrust>) -> State {
+    pub fn propagate_mean(&self, x: &State, dt: f64, drive: &Drive) -> State {
         let mut inertial = *x;
         let (r_c, v_c) = (part(x, idx::R_C), part(x, idx::V_C));
         inertial.fixed_rows_mut::<3>(0).copy_from(&(part(x, idx::R_TC) + r_c));
@@ -62,15 +70,18 @@ impl Dynamics {
         let end = rk4::step(0.0, &inertial, dt, |_, y| {
             let (r_t, v_t, a_t) = (part(y, 0..3), part(y, 3..6), part(y, idx::A_T));
             let (r_c, v_c, b) = (part(y, idx::R_C), part(y, idx::V_C), part(y, idx::B_C));
-            let drive = thrust.map_or_else(Vector3::zeros, |t| t.dcm_n_bc * (t.alpha_c_bc - b));
+            let felt = drive
+                .thrust
+                .as_ref()
+                .map_or_else(Vector3::zeros, |t| t.dcm_n_bc * (t.alpha_c_bc - b));
             let mut dy = State::zeros();
             dy.fixed_rows_mut::<3>(0).copy_from(&v_t);
             dy.fixed_rows_mut::<3>(3)
-                .copy_from(&(self.gravity.acceleration(&r_t, &v_t) + a_t));
+                .copy_from(&(self.gravity.acceleration(&r_t, &v_t) + a_t + drive.told_t_n));
             dy.fixed_rows_mut::<3>(6).copy_from(&(a_t * -self.acceleration_decay));
             dy.fixed_rows_mut::<3>(9).copy_from(&v_c);
             dy.fixed_rows_mut::<3>(12)
-                .copy_from(&(self.gravity.acceleration(&r_c, &v_c) + drive));
+                .copy_from(&(self.gravity.acceleration(&r_c, &v_c) + felt + drive.told_c_n));
             dy.fixed_rows_mut::<3>(15).copy_from(&(b * -self.beta));
             dy
         });
@@ -147,12 +158,12 @@ impl Dynamics {
         &self,
         est: &mut Gaussian,
         dt: f64,
-        thrust: Option<&Thrust>,
+        drive: &Drive,
         learnt: Option<&Disturbance>,
         q_target: &TargetMatrix,
     ) -> StateMatrix {
-        let mut f = self.transition(&est.x, dt, thrust);
-        est.x = self.propagate_mean(&est.x, dt, thrust);
+        let mut f = self.transition(&est.x, dt, drive.thrust.as_ref());
+        est.x = self.propagate_mean(&est.x, dt, drive);
         if let Some(learnt) = learnt {
             learnt.act(&mut est.x, &mut f, dt);
         }
@@ -161,7 +172,7 @@ impl Dynamics {
     }
 }
 
-/// F P F^T for F = [T D; 0 C] in 9x9 blocks, as [`Dynamics::transition`] makes it: nothing of the chaser's comes from the
+/// F P F^T for F = [T D; 0 C] in 9x9 blocks, as [`TwoVehicles::transition`] makes it: nothing of the chaser's comes from the
 /// target, and of the two off-diagonal blocks of a covariance one is enough.
 fn carried(f: &StateMatrix, p: &StateMatrix) -> StateMatrix {
     let block = |m: &StateMatrix, i: usize, j: usize| m.fixed_view::<9, 9>(9 * i, 9 * j).into_owned();
@@ -179,143 +190,36 @@ fn carried(f: &StateMatrix, p: &StateMatrix) -> StateMatrix {
     out
 }
 
-/// Measurement rows: H, the innovation and the noise variances of M measurements.
-#[derive(Clone, Debug)]
-pub struct Measurement<const M: usize, const D: usize = N> {
-    /// Partials by the D states, M x D.
-    pub h: SMatrix<f64, M, D>,
-    /// Measured minus predicted, M.
-    pub innovation: SVector<f64, M>,
-    /// Diagonal of R, M.
-    pub r: SVector<f64, M>,
-}
-
-/// The update failed: S has no Cholesky factor.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NotSpd {
-    /// Smallest diagonal entry of S.
-    pub min_diagonal: f64,
-}
-
-impl NotSpd {
-    /// As the error of the sample at this epoch.
-    pub(crate) fn at(self, t_s: f64) -> FilterError {
-        FilterError::InnovationNotSpd {
-            t_s,
-            min_diagonal: self.min_diagonal,
+/// Initial covariance, 18x18, internal units (Mamich and Zanetti, Eqs. 35 and 37).
+///
+/// Both vehicles' errors are independent and equally large, so r_tc carries twice the variance and is correlated with r_c;
+/// likewise v_tc. The third block is a_t for the target and b_c for the chaser.
+///
+/// * `sigma`: of one vehicle, internal units.
+pub fn initial_covariance(sigma: &InitialSigma) -> StateMatrix {
+    let mut p = StateMatrix::zeros();
+    for axis in 0..3 {
+        for (slot, sigma) in [(0, sigma.position), (3, sigma.velocity)] {
+            let (t, c, v) = (slot + axis, 9 + slot + axis, sigma * sigma);
+            p[(t, t)] = 2.0 * v;
+            p[(c, c)] = v;
+            p[(t, c)] = -v;
+            p[(c, t)] = -v;
         }
+        p[(6 + axis, 6 + axis)] = sigma.acceleration * sigma.acceleration;
+        p[(15 + axis, 15 + axis)] = sigma.bias * sigma.bias;
     }
-}
-
-/// The innovation covariance of an update.
-#[derive(Clone, Debug)]
-pub struct Innovated<const M: usize> {
-    /// S, M x M.
-    pub s: SMatrix<f64, M, M>,
-    /// Its lower Cholesky factor.
-    l: SMatrix<f64, M, M>,
-}
-
-impl<const M: usize> Innovated<M> {
-    /// Normalised innovation squared of the first R rows: innovation^T S^-1 innovation, with their block of S.
-    pub fn normalised<const R: usize>(&self, innovation: &SVector<f64, R>) -> f64 {
-        // The leading block of a Cholesky factor is the factor of the leading block.
-        let l = SMatrix::<f64, R, R>::from_fn(|i, j| self.l[(i, j)]);
-        spd::forward_substitution(&l, innovation).norm_squared()
-    }
-}
-
-/// Measurement update, Eqs. (6) and (12): gain with the rows of the consider states zeroed, covariance in Joseph form,
-/// which stays valid for that gain.
-///
-/// * `consider`: slots of the consider states.
-/// * returns: the innovation covariance S and its factor.
-///
-/// # Errors
-/// [`NotSpd`] when S cannot be factored; `est` is then unchanged.
-pub fn update<const M: usize, const D: usize>(
-    est: &mut Gaussian<D>,
-    m: &Measurement<M, D>,
-    consider: Range<usize>,
-) -> Result<Innovated<M>, NotSpd> {
-    let hp = m.h * est.p;
-    let s = spd::symmetrised(&(hp * m.h.transpose())) + SMatrix::<f64, M, M>::from_diagonal(&m.r);
-    let l = spd::cholesky(&s).ok_or(NotSpd {
-        min_diagonal: s.diagonal().min(),
-    })?;
-    let mut k = SMatrix::<f64, D, M>::zeros();
-    for row in (0..D).filter(|row| !consider.contains(row)) {
-        k.set_row(row, &spd::cholesky_solve(&l, &hp.column(row).into_owned()).transpose());
-    }
-    est.x += k * m.innovation;
-    // (I - K H) P (I - K H)^T + K R K^T as L - (L H^T - K R) K^T with L = (I - K H) P: no full 18^3 product.
-    let left = est.p - k * hp;
-    let k_r = SMatrix::<f64, D, M>::from_fn(|i, j| k[(i, j)] * m.r[j]);
-    est.p = spd::symmetrised(&(left - (left * m.h.transpose() - k_r) * k.transpose()));
-    Ok(Innovated { s, l })
-}
-
-/// LiDAR rows at the predicted state, Eqs. (7) to (11).
-///
-/// * `r_tc_n`: predicted relative position, axes N.
-/// * `dcm_l_n`: axes N to LiDAR.
-/// * returns: predicted (range, azimuth, elevation) and their partials by the target's nine states, 3x9.
-pub fn lidar_rows(r_tc_n: &Vector3<f64>, dcm_l_n: &Matrix3<f64>) -> (Vector3<f64>, LidarRows) {
-    let predicted = sensors::lidar::measure(&(dcm_l_n * r_tc_n));
-    let mut h = LidarRows::zeros();
-    h.fixed_view_mut::<3, 3>(0, 0)
-        .copy_from(&sensors::lidar::jacobian(r_tc_n, dcm_l_n));
-    (predicted, h)
-}
-
-/// Initial standard deviations of one vehicle, internal units.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct InitialSigma {
-    /// Of its position.
-    pub position: f64,
-    /// Of its velocity.
-    pub velocity: f64,
-    /// Of the target's unmodelled acceleration.
-    pub acceleration: f64,
-    /// Of the chaser's accelerometer bias.
-    pub bias: f64,
-}
-
-impl InitialSigma {
-    /// Initial covariance, 18x18, Eqs. (35) and (37).
-    ///
-    /// Both vehicles' errors are independent and equally large, so r_tc carries twice the variance and is correlated
-    /// with r_c; likewise v_tc. The third block is a_t for the target and b_c for the chaser.
-    pub fn covariance(&self) -> StateMatrix {
-        let mut p = StateMatrix::zeros();
-        for axis in 0..3 {
-            for (slot, sigma) in [(0, self.position), (3, self.velocity)] {
-                let (t, c, v) = (slot + axis, 9 + slot + axis, sigma * sigma);
-                p[(t, t)] = 2.0 * v;
-                p[(c, c)] = v;
-                p[(t, c)] = -v;
-                p[(c, t)] = -v;
-            }
-            p[(6 + axis, 6 + axis)] = self.acceleration * self.acceleration;
-            p[(15 + axis, 15 + axis)] = self.bias * self.bias;
-        }
-        p
-    }
+    p
 }
 
 #[cfg(test)]
 #[allow(clippy::float_cmp)]
 mod tests {
     use super::*;
-    use numerics::{Generator, Source, stream};
-    use rand_distr::{Distribution, StandardNormal};
-
-    fn normal(g: &mut Generator) -> f64 {
-        StandardNormal.sample(g)
-    }
-
-    fn leo() -> (Dynamics, State) {
-        let dynamics = Dynamics {
+    use crate::state::N;
+    use nalgebra::SMatrix;
+    fn leo() -> (TwoVehicles, State) {
+        let dynamics = TwoVehicles {
             gravity: Gravity::Zonal(astro::earth::FILTER),
             acceleration_decay: 1e-2,
             beta: 1.0 / 3600.0,
@@ -342,11 +246,6 @@ mod tests {
         }
     }
 
-    fn random_spd(g: &mut Generator) -> StateMatrix {
-        let a = StateMatrix::from_fn(|_, _| normal(g));
-        a * a.transpose() + StateMatrix::identity()
-    }
-
     #[test]
     fn transition_agrees_with_differences_of_the_flow() {
         let (dynamics, x) = leo();
@@ -358,7 +257,7 @@ mod tests {
                 let (mut up, mut down) = (x, x);
                 up[j] += step;
                 down[j] -= step;
-                let flow = |x: &State| dynamics.propagate_mean(x, 1.0, drive.as_ref());
+                let flow = |x: &State| dynamics.propagate_mean(x, 1.0, &drive.map(Drive::from).unwrap_or_default());
                 let column = (flow(&up) - flow(&down)) / (2.0 * step);
                 // exp(A dt) holds the gravity gradient over the step, which turns by 1e-3 rad meanwhile: 1e-9 1/s2.
                 assert!(
@@ -382,64 +281,11 @@ mod tests {
         };
         let before = energies(&x);
         for _ in 0..5680 {
-            x = dynamics.propagate_mean(&x, 1.0, None);
+            x = dynamics.propagate_mean(&x, 1.0, &Drive::default());
         }
         for (a, b) in before.iter().zip(energies(&x)) {
             assert!(((a - b) / a).abs() < 1e-12, "{a} {b}");
         }
-    }
-
-    /// Schmidt's filter by the general formulas, the inverse formed, on a covariance with every cross term.
-    #[test]
-    fn consider_update_agrees_with_the_general_formulas() {
-        let g = &mut stream(1, 0, Source::Lidar);
-        let mut est = Gaussian {
-            x: State::from_fn(|_, _| normal(g)),
-            p: random_spd(g),
-        };
-        let before = est.clone();
-        let m = Measurement {
-            h: SMatrix::<f64, 6, N>::from_fn(|_, _| normal(g)),
-            innovation: SVector::<f64, 6>::from_fn(|_, _| normal(g)),
-            r: SVector::<f64, 6>::from_fn(|i, _| 0.5 + i as f64),
-        };
-        let s = update(&mut est, &m, idx::CONSIDER).unwrap().s;
-        let r = SMatrix::<f64, 6, 6>::from_diagonal(&m.r);
-        let expected_s = m.h * before.p * m.h.transpose() + r;
-        assert!((s - expected_s).amax() < 1e-10);
-        let mut k = before.p * m.h.transpose() * expected_s.try_inverse().unwrap();
-        k.fixed_rows_mut::<6>(idx::CONSIDER.start).fill(0.0);
-        let i_kh = StateMatrix::identity() - k * m.h;
-        let p = i_kh * before.p * i_kh.transpose() + k * r * k.transpose();
-        assert!((est.p - p).amax() < 1e-10);
-        assert!((est.x - before.x - k * m.innovation).amax() < 1e-11);
-        assert_eq!(est.x.fixed_rows::<6>(9), before.x.fixed_rows::<6>(9));
-        assert!(
-            (est.p - before.p).fixed_view::<6, 6>(9, 9).amax() < 1e-11,
-            "consider states keep their covariance"
-        );
-        assert!(spd::cholesky(&est.p).is_some());
-    }
-
-    #[test]
-    fn a_covariance_that_is_not_positive_is_refused_and_kept() {
-        let mut est = Gaussian {
-            x: State::zeros(),
-            p: -StateMatrix::identity(),
-        };
-        let before = est.clone();
-        let mut h = SMatrix::<f64, 3, N>::zeros();
-        h.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
-        let m = Measurement {
-            h,
-            innovation: Vector3::zeros(),
-            r: Vector3::repeat(0.5),
-        };
-        assert_eq!(
-            update(&mut est, &m, idx::CONSIDER).unwrap_err(),
-            NotSpd { min_diagonal: -0.5 }
-        );
-        assert_eq!(est, before);
     }
 
     #[test]
@@ -461,13 +307,12 @@ mod tests {
 
     #[test]
     fn initial_covariance_is_that_of_two_independent_vehicles() {
-        let p = InitialSigma {
+        let p = initial_covariance(&InitialSigma {
             position: 3.0,
             velocity: 0.2,
             acceleration: 1e-9,
             bias: 1e-8,
-        }
-        .covariance();
+        });
         let mut to_vehicles = StateMatrix::identity();
         to_vehicles.fixed_view_mut::<6, 6>(0, 9).fill_with_identity();
         let v = to_vehicles * p * to_vehicles.transpose();

@@ -1,0 +1,180 @@
+//! What an accelerometer tells the propagation: a reading just after an epoch drives the step that follows, a mean drives the
+//! interval that it was taken over.
+
+use super::estimator::Gap;
+use crate::dynamics::Thrust;
+use crate::sample::{Sample, SpecificForce};
+use crate::units::Units;
+use astro::attitude;
+use interface::mission::KnownAccelerometer;
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// An accelerometer and what it has told; internal units.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Accelerometer {
+    units: Units,
+    gate: f64,
+    sigma: f64,
+    /// Drives the steps until the next reading; `None` when below the gate or before the first.
+    held: Option<Thrust>,
+    mean: Mean,
+}
+
+/// What readings that are means leave behind.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+struct Mean {
+    /// Epoch (s) and attitude of the newest.
+    last: Option<(f64, Matrix3<f64>)>,
+    /// Its acceleration, axes N; zero below the gate.
+    drive_n: Vector3<f64>,
+    /// Velocity that the filter has credited since then without a reading, axes N.
+    credited_n: Vector3<f64>,
+}
+
+/// What drives an interval, and what stays unknown of it at its end.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Driven {
+    pub thrust: Option<Thrust>,
+    /// Set where the covariance must grow.
+    pub blur: Option<Blur>,
+}
+
+/// Errors of the chaser's position and velocity at the end of an interval; internal units, axes N.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Blur {
+    /// One standard deviation of position, along this.
+    pub position_n: Vector3<f64>,
+    /// One standard deviation of velocity, along this.
+    pub velocity_n: Vector3<f64>,
+    /// Standard deviation of a constant acceleration over the interval, each axis.
+    pub acceleration: f64,
+    /// The interval.
+    pub interval: f64,
+}
+
+impl Accelerometer {
+    pub(super) fn new(known: &KnownAccelerometer, units: Units) -> Self {
+        Self {
+            units,
+            gate: known.gate_m_s2 / units.acceleration(),
+            sigma: known.sigma_m_s2 / units.acceleration(),
+            held: None,
+            mean: Mean::default(),
+        }
+    }
+
+    /// Variance of a sample, per axis.
+    pub(super) fn variance(&self) -> f64 {
+        self.sigma * self.sigma
+    }
+
+    fn reading(&self, force: &SpecificForce) -> (Vector3<f64>, bool) {
+        let alpha = force.alpha_c_bc() / self.units.acceleration();
+        (alpha, alpha.norm() >= self.gate)
+    }
+
+    /// The reading of a sample that observes the bias rather than drive the propagation.
+    pub(super) fn of_bias(&self, sample: &Sample) -> Option<Vector3<f64>> {
+        let (alpha, drives) = self.reading(sample.accelerometer.as_ref()?);
+        (!drives).then_some(alpha)
+    }
+
+    /// What drives the gap up to a sample.
+    ///
+    /// A mean is used over the interval since the last one, turned by the attitude half-way between its ends. A force that is
+    /// fixed in space then appears shortened by (turn)^2 / 24, which for a line of sight that turns with a low orbit is 2e-5 in
+    /// 20 s and left out.
+    ///
+    /// The mean fixes the velocity gained, not when in the interval T it was gained. Let a burn have run in the last interval
+    /// and end in this one, or begin in it: with a the mean and a' that of the interval before, the position at the end is off
+    /// by at most |a - a'| T^2 / 2, and evenly spread over that when the edge may lie anywhere. So the covariance of the
+    /// chaser's position gains a part of standard deviation |a - a'| T^2 / (2 sqrt 3) along the change; nothing where the
+    /// chaser does not thrust.
+    ///
+    /// Where other sensors sample in between, T is longer than the gap: the last mean is held meanwhile, its effect made
+    /// uncertain, and what it credited too little or too much is made good in the gap at whose end the reading comes.
+    ///
+    /// * `bias`: the estimated one.
+    pub(super) fn over(&mut self, gap: &Gap, sample: &Sample, bias: &Vector3<f64>) -> Driven {
+        let dt = gap.length_s / self.units.time;
+        let Some(SpecificForce::Mean(_)) = sample.accelerometer else {
+            return self.held_over(dt, bias);
+        };
+        let (alpha, drives) = sample
+            .accelerometer
+            .as_ref()
+            .map_or_else(Default::default, |f| self.reading(f));
+        let (last_s, last_dcm) = self.mean.last.unwrap_or((gap.from_s, sample.dcm_bc_n));
+        let interval = (sample.time - last_s) / self.units.time;
+        let dcm_bc_n = attitude::halfway(&last_dcm, &sample.dcm_bc_n);
+        let dcm_n_bc = dcm_bc_n.transpose();
+        let drive_n = if drives {
+            dcm_n_bc * (alpha - bias)
+        } else {
+            Vector3::zeros()
+        };
+        let earlier = interval - dt;
+        let late_n = if earlier > 1e-9 * interval {
+            drive_n * earlier - self.mean.credited_n
+        } else {
+            Vector3::zeros()
+        };
+        let change_n = drive_n - self.mean.drive_n;
+        self.mean = Mean {
+            last: Some((sample.time, sample.dcm_bc_n)),
+            drive_n,
+            credited_n: Vector3::zeros(),
+        };
+        self.held = drives.then_some(Thrust {
+            alpha_c_bc: alpha,
+            dcm_n_bc: sample.dcm_bc_n.transpose(),
+        });
+        if !drives && late_n == Vector3::zeros() {
+            return Driven::default();
+        }
+        let root3 = 3.0_f64.sqrt();
+        Driven {
+            thrust: Some(Thrust {
+                alpha_c_bc: dcm_bc_n * (late_n / dt) + if drives { alpha } else { *bias },
+                dcm_n_bc,
+            }),
+            blur: Some(Blur {
+                position_n: change_n * (interval * interval / (2.0 * root3)),
+                velocity_n: late_n / root3,
+                acceleration: self.sigma,
+                interval,
+            }),
+        }
+    }
+
+    /// The last reading over a gap at whose end there is none, or one of the instant.
+    fn held_over(&mut self, dt: f64, bias: &Vector3<f64>) -> Driven {
+        let mut driven = Driven {
+            thrust: self.held,
+            blur: None,
+        };
+        if let (Some(held), Some(_)) = (&self.held, self.mean.last) {
+            let velocity_n = held.dcm_n_bc * (held.alpha_c_bc - bias) * dt;
+            self.mean.credited_n += velocity_n;
+            driven.blur = Some(Blur {
+                position_n: Vector3::zeros(),
+                velocity_n: velocity_n / 3.0_f64.sqrt(),
+                acceleration: 0.0,
+                interval: dt,
+            });
+        }
+        driven
+    }
+
+    /// Takes note of a reading of the instant.
+    pub(super) fn take(&mut self, sample: &Sample) {
+        if let Some(force @ SpecificForce::Instant(_)) = &sample.accelerometer {
+            let (alpha, drives) = self.reading(force);
+            self.held = drives.then(|| Thrust {
+                alpha_c_bc: alpha,
+                dcm_n_bc: sample.dcm_bc_n.transpose(),
+            });
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! What an estimator offers to the navigator.
+
+use crate::error::FilterError;
+use crate::innovation::Innovation;
+use crate::laws::{Adaptation, Step};
+use crate::sample::Sample;
+use crate::state::{State, TargetMatrix};
+use nalgebra::Vector6;
+
+/// Mean, covariance and standard deviations, SI, as in [`crate::Estimate`].
+pub(crate) struct Reported {
+    pub x: State,
+    pub p_target: TargetMatrix,
+    pub sigma: State,
+}
+
+/// The interval from the last sample to a new one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gap {
+    /// Epoch of the last sample, or the start time, s.
+    pub from_s: f64,
+    /// Length, s, positive.
+    pub length_s: f64,
+    /// Start of the run, s.
+    pub start_s: f64,
+}
+
+/// A state, perhaps with its covariance, and what is known of its motion and of the sensors. Several of them, or one of several
+/// covariances, can stand behind the same trait.
+pub(crate) trait Estimator {
+    /// Refuses a sample that makes no sense, before anything changes.
+    fn check(&self, sample: &Sample) -> Result<(), FilterError>;
+
+    /// Takes the initial estimate, SI, when the first sample arrives at `t_s`.
+    fn start(&mut self, nav_init: &State, t_s: f64) -> Result<(), FilterError>;
+
+    /// Whether [`Estimator::start`] has been called.
+    fn started(&self) -> bool;
+
+    /// Time update over the gap, up to the epoch of `sample`.
+    ///
+    /// * returns: transition of the target's nine states over the whole gap.
+    fn propagate(&mut self, gap: &Gap, sample: &Sample, law: &dyn Adaptation) -> Result<TargetMatrix, FilterError>;
+
+    /// Measurement update with what the sample offers.
+    ///
+    /// * `step`: what a law shall see; filled in.
+    /// * returns: the innovation in SI; `None` when nothing was measured of the target.
+    fn update(&mut self, sample: &Sample, step: &mut Step) -> Result<Option<Innovation>, FilterError>;
+
+    /// Number of the target's nine states that have a covariance; none under a constant gain.
+    fn dimension(&self) -> usize;
+
+    /// Whether its dynamics say what the simplest ones leave out.
+    fn knows_acceleration(&self) -> bool {
+        false
+    }
+
+    /// Relative position and velocity, internal units.
+    fn relative(&self) -> Vector6<f64>;
+
+    /// The estimate in SI.
+    fn report(&self, sample: &Sample, law: &dyn Adaptation) -> Reported;
+
+    /// The first thing wrong with mean and covariance.
+    fn defect(&self, t_s: f64) -> Option<FilterError>;
+}
+
+/// Longest step of one propagation, s; a gap between samples is crossed in equal parts no longer than this.
+const LONGEST_STEP: f64 = 1.0;
+
+impl Gap {
+    /// Number of equal parts in which the gap is crossed.
+    pub(super) fn parts(&self) -> u32 {
+        (self.length_s / LONGEST_STEP - 1e-9).ceil().max(1.0) as u32
+    }
+}
+
+/// The first thing wrong with a mean and the variances of a covariance.
+pub(super) fn defect<'a>(
+    x: impl IntoIterator<Item = &'a f64>,
+    p: impl IntoIterator<Item = &'a f64>,
+    variances: impl IntoIterator<Item = f64>,
+    t_s: f64,
+) -> Option<FilterError> {
+    if !x.into_iter().chain(p).all(|v| v.is_finite()) {
+        return Some(FilterError::NotFinite { t_s });
+    }
+    // Zero is legal: a law without an acceleration state has no variance there.
+    let negative = variances.into_iter().position(|v| v < 0.0);
+    negative.map(|i| FilterError::NegativeVariance { t_s, state: i + 1 })
+}

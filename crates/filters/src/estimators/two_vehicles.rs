@@ -1,0 +1,391 @@
+//! A target seen from a chaser that knows itself roughly: 18 states, axes N (Mamich and Zanetti).
+
+use super::accelerometer::{Accelerometer, Blur};
+use super::estimator::{Estimator, Gap, Reported, defect};
+use super::sights::{self, Sight};
+use super::told::{Manoeuvres, Place};
+use crate::beliefs::Beliefs;
+use crate::dynamics::{AccelerationModel, Drive, TwoVehicles, initial_covariance};
+use crate::error::FilterError;
+use crate::gravity::Gravity;
+use crate::innovation::Innovation;
+use crate::laws::{Adaptation, Step};
+use crate::layout::{Layout, Sensor};
+use crate::sample::Sample;
+use crate::state::{MAX_ROWS, N, RowVector, State, StateMatrix, TargetMatrix, idx};
+use crate::units::Units;
+use crate::update::kalman::{self, Gaussian, Measurement, NotSpd};
+use astro::relative_axes::{AxesN, Reference};
+use astro::{Cr3bpSystem, frames};
+use interface::Navigation;
+use interface::mission::InitialSigma;
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3, Vector6};
+use serde::{Deserialize, Serialize};
+
+/// The filter's knowledge of both vehicles, internal units.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct InertialState {
+    units: Units,
+    /// Set where axes N turn.
+    rotating: Option<Cr3bpSystem>,
+    dynamics: TwoVehicles,
+    acceleration: AccelerationModel,
+    layout: Layout,
+    /// Noise variances of the sensors of the target.
+    r: RowVector,
+    /// SI size of their rows.
+    si: RowVector,
+    accelerometer: Option<Accelerometer>,
+    told: Manoeuvres,
+    initial_p: InitialSigma,
+    /// Mean and covariance; `None` until the first sample.
+    core: Option<Gaussian>,
+}
+
+/// Most rows of an update: those of the target and three of the bias.
+const MOST: usize = MAX_ROWS + 3;
+
+/// Measurements of one epoch, one below the other.
+struct Stack {
+    h: SMatrix<f64, MOST, N>,
+    innovation: SVector<f64, MOST>,
+    r: SVector<f64, MOST>,
+    /// Place of each row in the layout of the mission; of the target's rows alone.
+    places: [usize; MAX_ROWS],
+    target_rows: usize,
+    rows: usize,
+}
+
+impl Stack {
+    fn new() -> Self {
+        Self {
+            h: SMatrix::zeros(),
+            innovation: SVector::zeros(),
+            r: SVector::zeros(),
+            places: [0; MAX_ROWS],
+            target_rows: 0,
+            rows: 0,
+        }
+    }
+
+    fn push(&mut self, innovation: f64, r: f64) -> usize {
+        let row = self.rows;
+        self.innovation[row] = innovation;
+        self.r[row] = r;
+        self.rows += 1;
+        row
+    }
+}
+
+fn part(x: &State, slot: std::ops::Range<usize>) -> Vector3<f64> {
+    x.fixed_rows::<3>(slot.start).into_owned()
+}
+
+impl InertialState {
+    /// # Errors
+    /// When the mission tells of something that cannot be used.
+    pub(super) fn new(
+        told: &Navigation,
+        beliefs: &Beliefs,
+        acceleration: AccelerationModel,
+    ) -> Result<Self, FilterError> {
+        let (units, layout) = (Units::of(&told.units), Layout::of(told));
+        let rotating = told
+            .gravity
+            .cr3bp()
+            .map(|p| Cr3bpSystem::new(p.mass_ratio, p.length_m, p.time_s));
+        let (beta, bias_walk) = told
+            .accelerometer
+            .map_or((0.0, 0.0), |s| (1.0 / s.bias_time_constant_s, s.bias_sigma_m_s2));
+        Ok(Self {
+            units,
+            rotating: rotating.transpose()?,
+            dynamics: TwoVehicles {
+                gravity: Gravity::of(told)?,
+                acceleration_decay: acceleration.decay(),
+                beta: beta * units.time,
+                q_c: told.chaser_q_c_m2_s3 / (units.velocity().powi(2) / units.time),
+                q_coupled: beliefs.chaser_q_coupled,
+                // A standard deviation per 1 s step, as a variance rate.
+                q_bias: (bias_walk / units.acceleration()).powi(2) * units.time,
+            },
+            acceleration,
+            layout,
+            r: sights::noise(told),
+            si: sights::si(&layout, &units),
+            accelerometer: told
+                .accelerometer
+                .as_ref()
+                .map(|known| Accelerometer::new(known, units)),
+            told: Manoeuvres::of(told)?,
+            initial_p: InitialSigma {
+                position: told.p0.position / units.length,
+                velocity: told.p0.velocity / units.velocity(),
+                acceleration: told.p0.acceleration / units.acceleration(),
+                bias: told.p0.bias / units.acceleration(),
+            },
+            core: None,
+        })
+    }
+
+    /// Adds what one sensor measured to a stack.
+    ///
+    /// * `z`: SI.
+    fn add<const M: usize>(&self, stack: &mut Stack, sensor: Sensor, z: &SVector<f64, M>, (predicted, h): &Sight<M>) {
+        for (row, place) in self.layout.of_sensor(sensor).into_iter().flatten().enumerate() {
+            let at = stack.push(z[row] / self.si[place] - predicted[row], self.r[place]);
+            stack.places[at] = place;
+            stack.h.fixed_view_mut::<1, 6>(at, 0).copy_from(&h.fixed_rows::<1>(row));
+        }
+        stack.target_rows = stack.rows;
+    }
+
+    /// What the sensors of the target say at the estimate `x`.
+    fn seen(&self, x: &State, sample: &Sample) -> Result<Stack, FilterError> {
+        let (r_tc, v_tc) = (part(x, idx::R_TC), part(x, idx::V_TC));
+        let dcm_l_n = frames::lidar_from_body() * sample.dcm_bc_n;
+        let mut stack = Stack::new();
+        let on_board = |sensor: Sensor| self.layout.of_sensor(sensor).is_some();
+        if let Some(z) = sample.lidar.seen().filter(|_| on_board(Sensor::Lidar)) {
+            self.add(&mut stack, Sensor::Lidar, &z, &sights::lidar(&r_tc, &dcm_l_n));
+        }
+        if let Some(z) = sample.camera.seen().filter(|_| on_board(Sensor::Camera)) {
+            self.add(&mut stack, Sensor::Camera, &z, &sights::camera(&r_tc, &dcm_l_n));
+        }
+        if let Some(z) = sample.radio.seen().filter(|_| on_board(Sensor::Radio)) {
+            self.add(&mut stack, Sensor::Radio, &z, &sights::radio(&r_tc, &v_tc));
+        }
+        if let Some(z) = sample.metrology.seen().filter(|_| on_board(Sensor::Metrology)) {
+            let (r_t, v_t) = (r_tc + part(x, idx::R_C), v_tc + part(x, idx::V_C));
+            let a_t = self.dynamics.gravity.acceleration(&r_t, &v_t) + part(x, idx::A_T);
+            let axes_n = self
+                .rotating
+                .map_or(AxesN::Inertial, |system| AxesN::Rotating { system, angle: 0.0 });
+            let units = &self.units;
+            let (r_t, v_t, a_t) = (r_t * units.length, v_t * units.velocity(), a_t * units.acceleration());
+            let target = Reference::new(axes_n, &r_t, &v_t, &a_t);
+            let relative = Vector6::new(r_tc.x, r_tc.y, r_tc.z, v_tc.x, v_tc.y, v_tc.z);
+            let sight = sights::metrology(&relative, &target, units)?;
+            self.add(&mut stack, Sensor::Metrology, &z, &sight);
+        }
+        if stack.h.iter().chain(&stack.innovation).all(|v| v.is_finite()) {
+            return Ok(stack);
+        }
+        Err(FilterError::LineOfSightUndefined {
+            t_s: sample.time,
+            range_m: r_tc.norm() * self.units.length,
+        })
+    }
+
+    /// Places of target and chaser, the velocities inertial.
+    fn places(&self, x: &State) -> (Place, Place) {
+        let of = |r: Vector3<f64>, v: Vector3<f64>| {
+            let (r_n, v_n) = (r * self.units.length, v * self.units.velocity());
+            let (r_n, v_n) = self.rotating.map_or((r_n, v_n), |s| s.about_secondary(&r_n, &v_n));
+            Place { r_n, v_n }
+        };
+        let (r_c, v_c) = (part(x, idx::R_C), part(x, idx::V_C));
+        (of(part(x, idx::R_TC) + r_c, part(x, idx::V_TC) + v_c), of(r_c, v_c))
+    }
+}
+
+/// Lets the covariance grow by what is not known of the chaser's thrust; the relative states have its opposite.
+fn blur(p: &mut StateMatrix, blur: &Blur) {
+    let t = blur.interval;
+    let mut add = |position: &Vector3<f64>, velocity: &Vector3<f64>| {
+        let mut error = State::zeros();
+        error.fixed_rows_mut::<3>(idx::R_C.start).copy_from(position);
+        error.fixed_rows_mut::<3>(idx::V_C.start).copy_from(velocity);
+        error.fixed_rows_mut::<3>(idx::R_TC.start).copy_from(&-position);
+        error.fixed_rows_mut::<3>(idx::V_TC.start).copy_from(&-velocity);
+        p.ger(1.0, &error, &error, 1.0);
+    };
+    add(&blur.position_n, &Vector3::zeros());
+    add(&Vector3::zeros(), &blur.velocity_n);
+    for axis in 0..3 {
+        let mut a = Vector3::zeros();
+        a[axis] = blur.acceleration;
+        add(&(a * (t * t / 2.0)), &(a * t));
+    }
+}
+
+/// The update with the first M rows of a stack, and what a law shall see of it.
+fn update<const M: usize>(core: &mut Gaussian, stack: &Stack, step: &mut Step) -> Result<f64, NotSpd> {
+    let m = Measurement::<M> {
+        h: stack.h.fixed_rows::<M>(0).into_owned(),
+        innovation: stack.innovation.fixed_rows::<M>(0).into_owned(),
+        r: stack.r.fixed_rows::<M>(0).into_owned(),
+    };
+    let found = kalman::update(core, &m, idx::CONSIDER)?;
+    if stack.target_rows == 0 {
+        return Ok(0.0);
+    }
+    let places = &stack.places[..stack.target_rows];
+    for (i, to_i) in places.iter().enumerate() {
+        for (j, to_j) in places.iter().enumerate() {
+            step.s[(*to_i, *to_j)] = found.s[(i, j)];
+        }
+    }
+    let (nis, log_likelihood) = found.of_leading(&m.innovation, stack.target_rows);
+    step.log_likelihood = log_likelihood;
+    Ok(nis)
+}
+
+/// Calls [`update`] with as many rows as a stack has.
+macro_rules! update_rows {
+    ($core:expr, $stack:expr, $step:expr; $($rows:literal)*) => {
+        match $stack.rows {
+            $($rows => update::<$rows>($core, &$stack, $step),)*
+            _ => Ok(0.0),
+        }
+    };
+}
+
+impl Estimator for InertialState {
+    fn check(&self, sample: &Sample) -> Result<(), FilterError> {
+        let defect = (sample.dcm_bc_n * sample.dcm_bc_n.transpose() - Matrix3::identity()).amax();
+        if defect.is_nan() || defect > 1e-6 {
+            let t_s = sample.time;
+            return Err(FilterError::NotARotation { t_s, defect });
+        }
+        Ok(())
+    }
+
+    fn start(&mut self, nav_init: &State, t_s: f64) -> Result<(), FilterError> {
+        if nav_init.fixed_rows::<3>(idx::R_C.start).iter().all(|v| *v == 0.0) {
+            return Err(FilterError::NoChaserPosition { t_s });
+        }
+        let mut core = Gaussian {
+            x: State::from_fn(|i, _| nav_init[i] / self.units.of_state(i)),
+            p: initial_covariance(&self.initial_p),
+        };
+        if self.acceleration == AccelerationModel::Absent {
+            core.x.fixed_rows_mut::<3>(idx::A_T.start).fill(0.0);
+            idx::A_T.for_each(|i| core.p[(i, i)] = 0.0);
+        }
+        self.core = Some(core);
+        Ok(())
+    }
+
+    fn started(&self) -> bool {
+        self.core.is_some()
+    }
+
+    fn propagate(&mut self, gap: &Gap, sample: &Sample, law: &dyn Adaptation) -> Result<TargetMatrix, FilterError> {
+        let mut total = TargetMatrix::identity();
+        let Some(mut core) = self.core.take() else {
+            return Ok(total);
+        };
+        let bias = part(&core.x, idx::B_C);
+        let driven = self
+            .accelerometer
+            .as_mut()
+            .map(|accelerometer| accelerometer.over(gap, sample, &bias))
+            .unwrap_or_default();
+        let mut drive = Drive {
+            thrust: driven.thrust,
+            ..Drive::default()
+        };
+        let mut t = gap.from_s - gap.start_s;
+        for length in self.told.steps(t, gap.length_s, gap.parts()) {
+            let middle = t + length / 2.0;
+            self.dynamics.gravity.turn_to(middle)?;
+            if !self.told.is_empty() {
+                let (target, chaser) = self.places(&core.x);
+                let dcm_n_bc = sample.dcm_bc_n.transpose();
+                let (target, chaser) = self.told.at(middle, Some((&target, &chaser)), &dcm_n_bc);
+                drive.told_t_n = target / self.units.acceleration();
+                drive.told_c_n = chaser / self.units.acceleration();
+            }
+            let dt = length / self.units.time;
+            let f = self
+                .dynamics
+                .predict(&mut core, dt, &drive, law.disturbance(), &law.process_noise(dt));
+            total = f.fixed_view::<9, 9>(0, 0) * total;
+            t += length;
+        }
+        if let Some(unknown) = &driven.blur {
+            blur(&mut core.p, unknown);
+        }
+        self.core = Some(core);
+        Ok(total)
+    }
+
+    fn update(&mut self, sample: &Sample, step: &mut Step) -> Result<Option<Innovation>, FilterError> {
+        let Some(mut core) = self.core.take() else {
+            return Ok(None);
+        };
+        let prior = core.x;
+        step.p_prior = core.p.fixed_view::<9, 9>(0, 0).into_owned();
+        let mut stack = self.seen(&core.x, sample)?;
+        if let Some(accelerometer) = &mut self.accelerometer {
+            accelerometer.take(sample);
+            if let Some(alpha) = accelerometer.of_bias(sample) {
+                // An identity under b_c (Eq. 11 prints extra zeros).
+                for (axis, slot) in idx::B_C.enumerate() {
+                    let row = stack.push(alpha[axis] - core.x[slot], accelerometer.variance());
+                    stack.h[(row, slot)] = 1.0;
+                }
+            }
+        }
+        let nis = update_rows!(&mut core, stack, step; 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16)
+            .map_err(|e| e.at(sample.time))?;
+        for (row, place) in stack.places[..stack.target_rows].iter().enumerate() {
+            step.measured.mark(*place..place + 1);
+            step.innovation[*place] = stack.innovation[row];
+            step.h
+                .fixed_view_mut::<1, 9>(*place, 0)
+                .copy_from(&stack.h.fixed_view::<1, 9>(row, 0));
+        }
+        step.correction = (core.x - prior).fixed_rows::<9>(0).into_owned();
+        step.p_post = core.p.fixed_view::<9, 9>(0, 0).into_owned();
+        self.core = Some(core);
+        if stack.target_rows == 0 {
+            return Ok(None);
+        }
+        let (residual, variance) = (
+            step.innovation.component_mul(&self.si),
+            step.s.diagonal().component_mul(&self.si).component_mul(&self.si),
+        );
+        Ok(Some(Innovation {
+            residual: self.layout.to_channels(&residual),
+            variance: self.layout.to_channels(&variance),
+            nis,
+            rows: stack.target_rows,
+        }))
+    }
+
+    fn dimension(&self) -> usize {
+        self.acceleration.states()
+    }
+
+    fn relative(&self) -> Vector6<f64> {
+        let of = |core: &Gaussian| core.x.fixed_rows::<6>(0).into_owned();
+        self.core.as_ref().map(of).unwrap_or_default()
+    }
+
+    fn report(&self, _sample: &Sample, law: &dyn Adaptation) -> Reported {
+        let unit = SVector::<f64, N>::from_fn(|i, _| self.units.of_state(i));
+        let Some(core) = &self.core else {
+            return Reported {
+                x: State::zeros(),
+                p_target: TargetMatrix::zeros(),
+                sigma: State::zeros(),
+            };
+        };
+        let mut x = core.x;
+        if let Some(learnt) = law.disturbance() {
+            x.fixed_rows_mut::<3>(idx::A_T.start).copy_from(&learnt.d);
+        }
+        Reported {
+            x: x.component_mul(&unit),
+            p_target: TargetMatrix::from_fn(|i, j| core.p[(i, j)] * unit[i] * unit[j]),
+            sigma: State::from_fn(|i, _| core.p[(i, i)].sqrt() * unit[i]),
+        }
+    }
+
+    fn defect(&self, t_s: f64) -> Option<FilterError> {
+        let core = self.core.as_ref()?;
+        defect(core.x.iter(), core.p.iter(), core.p.diagonal().iter().copied(), t_s)
+    }
+}

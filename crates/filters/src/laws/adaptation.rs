@@ -1,0 +1,123 @@
+//! What a law is: it receives what every sample told and answers with the process noise of the steps to come.
+
+use crate::disturbance::Disturbance;
+use crate::dynamics::AccelerationModel;
+use crate::error::FilterError;
+use crate::layout::{Layout, Measured};
+use crate::state::{RowMatrix, RowVector, Rows, Target, TargetMatrix};
+use crate::tunable::Tunables;
+use crate::units::Units;
+use nalgebra::{Vector3, Vector6};
+use serde::{Deserialize, Serialize};
+
+/// What a law sees of one processed sample; internal units. Rows stand in the places of [`Setup::layout`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Step {
+    /// Time since the previous sample.
+    pub dt: f64,
+    /// Transition of the target's nine states from the previous sample to this one, 9x9.
+    pub f: TargetMatrix,
+    /// Which rows were measured.
+    pub measured: Measured,
+    /// Rows of H at the predicted state; zero where nothing was measured.
+    pub h: Rows,
+    /// Innovation of those rows; zero likewise.
+    pub innovation: RowVector,
+    /// Their covariance S; zero likewise, and without a covariance.
+    pub s: RowMatrix,
+    /// Log-likelihood of the innovation under S; zero when nothing was measured, and without a covariance.
+    pub log_likelihood: f64,
+    /// What the update, accelerometer rows included, added to the target's nine states.
+    pub correction: Target,
+    /// Covariance of the target's nine states before the update, 9x9; zero without a covariance.
+    pub p_prior: TargetMatrix,
+    /// The same after it.
+    pub p_post: TargetMatrix,
+}
+
+impl Step {
+    /// A sample at which nothing was measured, `dt` after the last.
+    pub fn blank(dt: f64, f: TargetMatrix) -> Self {
+        Self {
+            dt,
+            f,
+            measured: Measured::default(),
+            h: Rows::zeros(),
+            innovation: RowVector::zeros(),
+            s: RowMatrix::zeros(),
+            log_likelihood: 0.0,
+            correction: Target::zeros(),
+            p_prior: TargetMatrix::zeros(),
+            p_post: TargetMatrix::zeros(),
+        }
+    }
+}
+
+/// A law plugged into the filter.
+pub trait Adaptation {
+    /// How the acceleration state behaves.
+    fn acceleration(&self) -> AccelerationModel {
+        AccelerationModel::RandomWalk
+    }
+
+    /// Discrete process noise of the target's nine states over `dt`, 9x9, internal units.
+    fn process_noise(&self, dt: f64) -> TargetMatrix;
+
+    /// Takes note of the newest estimate: the initial one, then that after each sample.
+    ///
+    /// * `x`: relative position and velocity, internal units.
+    fn look_ahead(&mut self, _x: &Vector6<f64>) {}
+
+    /// Acceleration that acts on the relative state until the next sample, with its partials; internal units.
+    fn disturbance(&self) -> Option<&Disturbance> {
+        None
+    }
+
+    /// Learns from a processed sample.
+    ///
+    /// # Errors
+    /// When the law cannot go on; the filter stops with it.
+    fn observe(&mut self, _step: &Step) -> Result<(), FilterError> {
+        Ok(())
+    }
+
+    /// Square root of the jerk density per axis of the estimate now in use, internal units; zero for a law without one.
+    fn s(&self) -> Vector3<f64> {
+        Vector3::zeros()
+    }
+
+    /// How often the law has changed its mind.
+    fn updates(&self) -> i32 {
+        0
+    }
+
+    /// How often it had to pass an update by, its window being singular.
+    fn skipped(&self) -> i32 {
+        0
+    }
+
+    /// How often its solver found no solution, so that the last process noise stayed.
+    fn unsolved(&self) -> i32 {
+        0
+    }
+}
+
+/// What a law may know when it is built.
+pub struct Setup<'a> {
+    /// Its tunables.
+    pub tunables: Tunables<'a>,
+    /// Places of the rows of the mission's sensors.
+    pub layout: Layout,
+    /// Their noise variances, the diagonal of R, internal units; zero beyond the rows there are.
+    pub r: RowVector,
+    /// Whether the first six rows are the relative position and velocity themselves.
+    pub state_measured: bool,
+    /// Internal units.
+    pub units: Units,
+    /// Factor on the process noise that the tunables say, or on an observer's gain, to study mistuning.
+    pub off_nominal: f64,
+    /// Seed of the study.
+    pub study_seed: u64,
+    /// Run within the study.
+    pub run: u64,
+}

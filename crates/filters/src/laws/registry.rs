@@ -1,0 +1,140 @@
+//! The registry of filters: one line each.
+
+use super::adaptation::{Adaptation, Setup, Step};
+use super::entry::FilterEntry;
+use super::{constrained_q, dmc, ekf_j2, fixed_q, milton, observer, rbfnn_aekf, rbfnn_ekf, snc};
+use crate::disturbance::Disturbance;
+use crate::dynamics::AccelerationModel;
+use crate::error::FilterError;
+use crate::state::TargetMatrix;
+use crate::tunable::{Kind, Start};
+use interface::Navigation;
+use nalgebra::{Vector3, Vector6};
+use serde::{Deserialize, Serialize};
+
+/// Makes the registry: the list of entries, the constructors, and the closed set of laws that a saved FMU state can hold.
+macro_rules! registry {
+    ($($variant:ident => $module:ident;)*) => {
+        /// Every filter, in the order reports list them.
+        pub const FILTERS: &[FilterEntry] = &[$($module::ENTRY),*];
+
+        const LAWS: &[fn(&Setup<'_>) -> Result<Law, FilterError>] =
+            &[$(|setup| Ok(Law::$variant(Box::new($module::$variant::new(setup)?)))),*];
+
+        /// The law of a running filter.
+        #[allow(missing_docs)]
+        #[derive(Clone, Debug, Serialize, Deserialize)]
+        pub enum Law { $($variant(Box<$module::$variant>)),* }
+
+        impl Law {
+            fn inner(&self) -> &dyn Adaptation {
+                match self { $(Self::$variant(law) => law.as_ref()),* }
+            }
+            fn inner_mut(&mut self) -> &mut dyn Adaptation {
+                match self { $(Self::$variant(law) => law.as_mut()),* }
+            }
+        }
+    };
+}
+
+registry! {
+    FixedQ => fixed_q;
+    Snc => snc;
+    Dmc => dmc;
+    Milton => milton;
+    ConstrainedQ => constrained_q;
+    RbfnnAekf => rbfnn_aekf;
+    RbfnnEkf => rbfnn_ekf;
+    Observer => observer;
+    EkfJ2 => ekf_j2;
+}
+
+impl Law {
+    /// The law of a filter of [`FILTERS`].
+    ///
+    /// # Errors
+    /// When a tunable is out of range, or there is no such filter.
+    pub fn new(filter: usize, setup: &Setup<'_>) -> Result<Self, FilterError> {
+        let build = LAWS.get(filter).ok_or_else(|| unknown(filter))?;
+        build(setup)
+    }
+}
+
+/// The filter of this place in [`FILTERS`].
+///
+/// # Errors
+/// When there is none.
+pub fn entry(filter: usize) -> Result<&'static FilterEntry, FilterError> {
+    FILTERS.get(filter).ok_or_else(|| unknown(filter))
+}
+
+/// Refuses a mission that states a start value which no law takes from it.
+///
+/// # Errors
+/// [`FilterError::UnknownStart`], with what there is.
+pub fn check_names(navigation: &Navigation) -> Result<(), FilterError> {
+    let derived = |entry: &FilterEntry, name: &str| {
+        entry.tunables.iter().any(|t| {
+            t.name == name
+                && matches!(
+                    t.kind,
+                    Kind::Real {
+                        start: Start::Derived(_),
+                        ..
+                    }
+                )
+        })
+    };
+    for name in navigation.law.keys() {
+        let (law, tunable) = name.split_once('.').unwrap_or((name, ""));
+        if !FILTERS.iter().any(|entry| entry.name == law && derived(entry, tunable)) {
+            let all = FILTERS.iter().flat_map(|entry| {
+                let own = entry.tunables.iter().filter(|t| derived(entry, t.name));
+                own.map(|t| format!("{}.{}", entry.name, t.name))
+            });
+            return Err(FilterError::UnknownStart {
+                name: name.clone(),
+                mission: navigation.mission.clone(),
+                known: all.collect::<Vec<_>>().join(", "),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn unknown(filter: usize) -> FilterError {
+    FilterError::UnknownFilter {
+        name: format!("number {}", filter + 1),
+        known: FILTERS.iter().map(|f| f.name).collect::<Vec<_>>().join(", "),
+    }
+}
+
+impl Adaptation for Law {
+    fn acceleration(&self) -> AccelerationModel {
+        self.inner().acceleration()
+    }
+    fn process_noise(&self, dt: f64) -> TargetMatrix {
+        self.inner().process_noise(dt)
+    }
+    fn look_ahead(&mut self, x: &Vector6<f64>) {
+        self.inner_mut().look_ahead(x);
+    }
+    fn disturbance(&self) -> Option<&Disturbance> {
+        self.inner().disturbance()
+    }
+    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
+        self.inner_mut().observe(step)
+    }
+    fn s(&self) -> Vector3<f64> {
+        self.inner().s()
+    }
+    fn updates(&self) -> i32 {
+        self.inner().updates()
+    }
+    fn skipped(&self) -> i32 {
+        self.inner().skipped()
+    }
+    fn unsolved(&self) -> i32 {
+        self.inner().unsolved()
+    }
+}

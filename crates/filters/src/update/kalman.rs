@@ -1,0 +1,196 @@
+//! The measurement update of the Kalman filter for any states, some of which may be consider states.
+//!
+//! Pure functions of mean and covariance, written once, so that a difference in results is a difference in the law.
+
+use crate::error::FilterError;
+use crate::state::N;
+use nalgebra::{SMatrix, SVector};
+use numerics::spd;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// Mean and covariance of D states, internal units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gaussian<const D: usize = N> {
+    /// The states, D.
+    pub x: SVector<f64, D>,
+    /// Their covariance, D x D.
+    pub p: SMatrix<f64, D, D>,
+}
+
+/// Measurement rows: H, the innovation and the noise variances of M measurements.
+#[derive(Clone, Debug)]
+pub struct Measurement<const M: usize, const D: usize = N> {
+    /// Partials by the D states, M x D.
+    pub h: SMatrix<f64, M, D>,
+    /// Measured minus predicted, M.
+    pub innovation: SVector<f64, M>,
+    /// Diagonal of R, M.
+    pub r: SVector<f64, M>,
+}
+
+/// The update failed: S has no Cholesky factor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NotSpd {
+    /// Smallest diagonal entry of S.
+    pub min_diagonal: f64,
+}
+
+impl NotSpd {
+    /// As the error of the sample at this epoch.
+    pub(crate) fn at(self, t_s: f64) -> FilterError {
+        FilterError::InnovationNotSpd {
+            t_s,
+            min_diagonal: self.min_diagonal,
+        }
+    }
+}
+
+/// The innovation covariance of an update.
+#[derive(Clone, Debug)]
+pub struct Innovated<const M: usize> {
+    /// S, M x M.
+    pub s: SMatrix<f64, M, M>,
+    /// Its lower Cholesky factor.
+    l: SMatrix<f64, M, M>,
+}
+
+impl<const M: usize> Innovated<M> {
+    /// Normalised innovation squared and log-likelihood of the first `rows` rows, with their block of S.
+    ///
+    /// * returns: v^T S^-1 v, and -1/2 (v^T S^-1 v + ln det S + rows ln 2 pi), in internal units.
+    pub fn of_leading(&self, innovation: &SVector<f64, M>, rows: usize) -> (f64, f64) {
+        // The leading block of a Cholesky factor is the factor of the leading block, and so are the first entries of the
+        // solution those of its solution.
+        let whitened = spd::forward_substitution(&self.l, innovation);
+        let nis = whitened.iter().take(rows).map(|w| w * w).sum::<f64>();
+        // One logarithm for all rows; a determinant of thirteen rows is far from overflow in any units.
+        let root_det: f64 = self.l.diagonal().iter().take(rows).product();
+        let log_likelihood = -0.5 * (nis + rows as f64 * (2.0 * std::f64::consts::PI).ln()) - root_det.ln();
+        (nis, log_likelihood)
+    }
+}
+
+/// Measurement update, Eqs. (6) and (12): gain with the rows of the consider states zeroed, covariance in Joseph form,
+/// which stays valid for that gain.
+///
+/// * `consider`: slots of the consider states.
+/// * returns: the innovation covariance S and its factor.
+///
+/// # Errors
+/// [`NotSpd`] when S cannot be factored; `est` is then unchanged.
+pub fn update<const M: usize, const D: usize>(
+    est: &mut Gaussian<D>,
+    m: &Measurement<M, D>,
+    consider: Range<usize>,
+) -> Result<Innovated<M>, NotSpd> {
+    let hp = m.h * est.p;
+    let s = spd::symmetrised(&(hp * m.h.transpose())) + SMatrix::<f64, M, M>::from_diagonal(&m.r);
+    let l = spd::cholesky(&s).ok_or(NotSpd {
+        min_diagonal: s.diagonal().min(),
+    })?;
+    let mut k = SMatrix::<f64, D, M>::zeros();
+    for row in (0..D).filter(|row| !consider.contains(row)) {
+        k.set_row(row, &spd::cholesky_solve(&l, &hp.column(row).into_owned()).transpose());
+    }
+    est.x += k * m.innovation;
+    // (I - K H) P (I - K H)^T + K R K^T as L - (L H^T - K R) K^T with L = (I - K H) P: no full 18^3 product.
+    let left = est.p - k * hp;
+    let k_r = SMatrix::<f64, D, M>::from_fn(|i, j| k[(i, j)] * m.r[j]);
+    est.p = spd::symmetrised(&(left - (left * m.h.transpose() - k_r) * k.transpose()));
+    Ok(Innovated { s, l })
+}
+
+#[cfg(test)]
+#[allow(clippy::float_cmp)]
+mod tests {
+    use super::*;
+    use crate::state::{State, StateMatrix, idx};
+    use nalgebra::Vector3;
+    use numerics::{Generator, Source, stream};
+    use rand_distr::{Distribution, StandardNormal};
+
+    fn normal(g: &mut Generator) -> f64 {
+        StandardNormal.sample(g)
+    }
+
+    fn random_spd(g: &mut Generator) -> StateMatrix {
+        let a = StateMatrix::from_fn(|_, _| normal(g));
+        a * a.transpose() + StateMatrix::identity()
+    }
+
+    /// Schmidt's filter by the general formulas, the inverse formed, on a covariance with every cross term.
+    #[test]
+    fn consider_update_agrees_with_the_general_formulas() {
+        let g = &mut stream(1, 0, Source::Lidar);
+        let mut est = Gaussian {
+            x: State::from_fn(|_, _| normal(g)),
+            p: random_spd(g),
+        };
+        let before = est.clone();
+        let m = Measurement {
+            h: SMatrix::<f64, 6, N>::from_fn(|_, _| normal(g)),
+            innovation: SVector::<f64, 6>::from_fn(|_, _| normal(g)),
+            r: SVector::<f64, 6>::from_fn(|i, _| 0.5 + i as f64),
+        };
+        let s = update(&mut est, &m, idx::CONSIDER).unwrap().s;
+        let r = SMatrix::<f64, 6, 6>::from_diagonal(&m.r);
+        let expected_s = m.h * before.p * m.h.transpose() + r;
+        assert!((s - expected_s).amax() < 1e-10);
+        let mut k = before.p * m.h.transpose() * expected_s.try_inverse().unwrap();
+        k.fixed_rows_mut::<6>(idx::CONSIDER.start).fill(0.0);
+        let i_kh = StateMatrix::identity() - k * m.h;
+        let p = i_kh * before.p * i_kh.transpose() + k * r * k.transpose();
+        assert!((est.p - p).amax() < 1e-10);
+        assert!((est.x - before.x - k * m.innovation).amax() < 1e-11);
+        assert_eq!(est.x.fixed_rows::<6>(9), before.x.fixed_rows::<6>(9));
+        assert!(
+            (est.p - before.p).fixed_view::<6, 6>(9, 9).amax() < 1e-11,
+            "consider states keep their covariance"
+        );
+        assert!(spd::cholesky(&est.p).is_some());
+    }
+
+    #[test]
+    fn a_covariance_that_is_not_positive_is_refused_and_kept() {
+        let mut est = Gaussian {
+            x: State::zeros(),
+            p: -StateMatrix::identity(),
+        };
+        let before = est.clone();
+        let mut h = SMatrix::<f64, 3, N>::zeros();
+        h.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
+        let m = Measurement {
+            h,
+            innovation: Vector3::zeros(),
+            r: Vector3::repeat(0.5),
+        };
+        assert_eq!(
+            update(&mut est, &m, idx::CONSIDER).unwrap_err(),
+            NotSpd { min_diagonal: -0.5 }
+        );
+        assert_eq!(est, before);
+    }
+
+    /// By the density of a normal vector written out, its determinant and inverse from elsewhere.
+    #[test]
+    fn likelihood_is_that_of_the_leading_rows() {
+        let g = &mut stream(2, 0, Source::Lidar);
+        let mut est = Gaussian {
+            x: State::zeros(),
+            p: random_spd(g),
+        };
+        let m = Measurement {
+            h: SMatrix::<f64, 5, N>::from_fn(|_, _| normal(g)),
+            innovation: SVector::<f64, 5>::from_fn(|_, _| normal(g)),
+            r: SVector::<f64, 5>::repeat(0.3),
+        };
+        let found = update(&mut est, &m, idx::CONSIDER).unwrap();
+        let block = found.s.fixed_view::<3, 3>(0, 0).into_owned();
+        let v = m.innovation.fixed_rows::<3>(0).into_owned();
+        let nis = (v.transpose() * block.try_inverse().unwrap() * v)[0];
+        let density = (-0.5 * nis).exp() / ((2.0 * std::f64::consts::PI).powi(3) * block.determinant()).sqrt();
+        let (ours, log_likelihood) = found.of_leading(&m.innovation, 3);
+        assert!((ours / nis - 1.0).abs() < 1e-10 && (log_likelihood - density.ln()).abs() < 1e-10);
+    }
+}

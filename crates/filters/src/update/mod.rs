@@ -1,0 +1,6 @@
+//! How a measurement changes an estimate: a kind of update, one file each.
+
+mod constant_gain;
+pub mod kalman;
+
+pub use constant_gain::ConstantGain;
