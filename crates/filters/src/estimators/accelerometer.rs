@@ -28,6 +28,8 @@ struct Mean {
     last: Option<(f64, Matrix3<f64>)>,
     /// Its acceleration, axes N; zero below the gate.
     drive_n: Vector3<f64>,
+    /// By how much it differs from the one before.
+    change_n: Vector3<f64>,
     /// Velocity that the filter has credited since then without a reading, axes N.
     credited_n: Vector3<f64>,
 }
@@ -90,7 +92,8 @@ impl Accelerometer {
     /// and end in this one, or begin in it: with a the mean and a' that of the interval before, the position at the end is off
     /// by at most |a - a'| T^2 / 2, and evenly spread over that when the edge may lie anywhere. So the covariance of the
     /// chaser's position gains a part of standard deviation |a - a'| T^2 / (2 sqrt 3) along the change; nothing where the
-    /// chaser does not thrust.
+    /// chaser does not thrust. A burn that fills neither of two intervals can have the same mean in both; so the change before
+    /// counts too, where it is the larger one.
     ///
     /// Where other sensors sample in between, T is longer than the gap: the last mean is held meanwhile, its effect made
     /// uncertain, and what it credited too little or too much is made good in the gap at whose end the reading comes.
@@ -121,9 +124,15 @@ impl Accelerometer {
             Vector3::zeros()
         };
         let change_n = drive_n - self.mean.drive_n;
+        let unsure_n = if change_n.norm() >= self.mean.change_n.norm() {
+            change_n
+        } else {
+            self.mean.change_n
+        };
         self.mean = Mean {
             last: Some((sample.time, sample.dcm_bc_n)),
             drive_n,
+            change_n,
             credited_n: Vector3::zeros(),
         };
         self.held = drives.then_some(Thrust {
@@ -140,7 +149,7 @@ impl Accelerometer {
                 dcm_n_bc,
             }),
             blur: Some(Blur {
-                position_n: change_n * (interval * interval / (2.0 * root3)),
+                position_n: unsure_n * (interval * interval / (2.0 * root3)),
                 velocity_n: late_n / root3,
                 acceleration: self.sigma,
                 interval,
