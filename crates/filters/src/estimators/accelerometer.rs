@@ -28,6 +28,8 @@ struct Mean {
     last: Option<(f64, Matrix3<f64>)>,
     /// Its acceleration, axes N; zero below the gate.
     drive_n: Vector3<f64>,
+    /// By how much it differs from the one before.
+    change_n: Vector3<f64>,
     /// Velocity that the filter has credited since then without a reading, axes N.
     credited_n: Vector3<f64>,
 }
@@ -45,8 +47,8 @@ pub(super) struct Driven {
 pub(super) struct Blur {
     /// One standard deviation of position, along this.
     pub position_n: Vector3<f64>,
-    /// One standard deviation of velocity, along this.
-    pub velocity_n: Vector3<f64>,
+    /// One standard deviation of velocity along each of these.
+    pub velocity_n: [Vector3<f64>; 2],
     /// Standard deviation of a constant acceleration over the interval, each axis.
     pub acceleration: f64,
     /// The interval.
@@ -83,14 +85,16 @@ impl Accelerometer {
     /// What drives the gap up to a sample.
     ///
     /// A mean is used over the interval since the last one, turned by the attitude half-way between its ends. A force that is
-    /// fixed in space then appears shortened by (turn)^2 / 24, which for a line of sight that turns with a low orbit is 2e-5 in
-    /// 20 s and left out.
+    /// fixed in space then appears shortened by (turn)^2 / 24, which for a line of sight that turns by 1e-2 rad is 4e-6 and left
+    /// out.
     ///
     /// The mean fixes the velocity gained, not when in the interval T it was gained. Let a burn have run in the last interval
     /// and end in this one, or begin in it: with a the mean and a' that of the interval before, the position at the end is off
     /// by at most |a - a'| T^2 / 2, and evenly spread over that when the edge may lie anywhere. So the covariance of the
     /// chaser's position gains a part of standard deviation |a - a'| T^2 / (2 sqrt 3) along the change; nothing where the
-    /// chaser does not thrust.
+    /// chaser does not thrust. A burn that fills neither of two intervals can have the same mean in both; so the change before
+    /// counts too, where it is the larger one. Nor is the attitude known at which such a part was felt: anywhere between the
+    /// ends, so that the velocity gains |turn x (a - a')| T / (2 sqrt 3) across it.
     ///
     /// Where other sensors sample in between, T is longer than the gap: the last mean is held meanwhile, its effect made
     /// uncertain, and what it credited too little or too much is made good in the gap at whose end the reading comes.
@@ -109,6 +113,7 @@ impl Accelerometer {
         let interval = (sample.time - last_s) / self.units.time;
         let dcm_bc_n = attitude::halfway(&last_dcm, &sample.dcm_bc_n);
         let dcm_n_bc = dcm_bc_n.transpose();
+        let turn_n = dcm_n_bc * attitude::turn(&last_dcm, &sample.dcm_bc_n);
         let drive_n = if drives {
             dcm_n_bc * (alpha - bias)
         } else {
@@ -121,9 +126,15 @@ impl Accelerometer {
             Vector3::zeros()
         };
         let change_n = drive_n - self.mean.drive_n;
+        let unsure_n = if change_n.norm() >= self.mean.change_n.norm() {
+            change_n
+        } else {
+            self.mean.change_n
+        };
         self.mean = Mean {
             last: Some((sample.time, sample.dcm_bc_n)),
             drive_n,
+            change_n,
             credited_n: Vector3::zeros(),
         };
         self.held = drives.then_some(Thrust {
@@ -140,8 +151,8 @@ impl Accelerometer {
                 dcm_n_bc,
             }),
             blur: Some(Blur {
-                position_n: change_n * (interval * interval / (2.0 * root3)),
-                velocity_n: late_n / root3,
+                position_n: unsure_n * (interval * interval / (2.0 * root3)),
+                velocity_n: [late_n / root3, turn_n.cross(&unsure_n) * (interval / (2.0 * root3))],
                 acceleration: self.sigma,
                 interval,
             }),
@@ -159,7 +170,7 @@ impl Accelerometer {
             self.mean.credited_n += velocity_n;
             driven.blur = Some(Blur {
                 position_n: Vector3::zeros(),
-                velocity_n: velocity_n / 3.0_f64.sqrt(),
+                velocity_n: [velocity_n / 3.0_f64.sqrt(), Vector3::zeros()],
                 acceleration: 0.0,
                 interval: dt,
             });

@@ -97,8 +97,7 @@ pub(super) fn radio(r_tc_n: &Vector3<f64>, v_tc_n: &Vector3<f64>) -> Sight<2> {
 
 /// Metrology: the chaser from the target, in the LVLH axes of the estimated target.
 ///
-/// Linear in r_tc and v_tc. The axes hang on the target's estimate too: 10 m of it turn them by 1e-6 rad in a low orbit, which
-/// over a kilometre is a millimetre; these partials are left out.
+/// Linear in r_tc and v_tc, the axes held; [`of_axes`] has what hangs on the axes.
 ///
 /// * `target`: where its axes stand, SI.
 ///
@@ -119,6 +118,35 @@ pub(super) fn metrology(relative: &Vector6<f64>, target: &Reference, units: &Uni
         h.set_column(state, &seen(&one)?);
     }
     Ok((seen(relative)?, h))
+}
+
+/// Partials of what a metrology sees by the target's own position and velocity, which turn its axes: 0.05 m/s of a low orbit's
+/// speed turn them by 7e-6 rad, which over a kilometre is as much as a metrology is good for.
+///
+/// By central differences, for what is seen is smooth over kilometres.
+///
+/// * `target`: its position and velocity, internal units.
+/// * `seen`: what a metrology sees for such a target.
+///
+/// # Errors
+/// When the target has no such axes.
+pub(super) fn of_axes(
+    target: &Vector6<f64>,
+    units: &Units,
+    seen: impl Fn(&Vector6<f64>) -> Result<Vector6<f64>, AstroError>,
+) -> Result<SMatrix<f64, 6, 6>, AstroError> {
+    let mut h = SMatrix::<f64, 6, 6>::zeros();
+    for state in 0..6 {
+        // A hundred metres, a tenth of a metre per second: rounding of positions of 1e-9 m is then far below the slope.
+        let size = if state < 3 { 100.0 } else { 0.1 } / units.of_state(state);
+        let mut step = Vector6::zeros();
+        step[state] = size;
+        h.set_column(
+            state,
+            &((seen(&(target + step))? - seen(&(target - step))?) / (2.0 * size)),
+        );
+    }
+    Ok(h)
 }
 
 #[cfg(test)]

@@ -156,17 +156,20 @@ impl InertialState {
             self.add(&mut stack, Sensor::Radio, &z, &sights::radio(&r_tc, &v_tc));
         }
         if let Some(z) = sample.metrology.seen().filter(|_| on_board(Sensor::Metrology)) {
-            let (r_t, v_t) = (r_tc + part(x, idx::R_C), v_tc + part(x, idx::V_C));
-            let a_t = self.dynamics.gravity.acceleration(&r_t, &v_t) + part(x, idx::A_T);
-            let axes_n = self
-                .rotating
-                .map_or(AxesN::Inertial, |system| AxesN::Rotating { system, angle: 0.0 });
-            let units = &self.units;
-            let (r_t, v_t, a_t) = (r_t * units.length, v_t * units.velocity(), a_t * units.acceleration());
-            let target = Reference::new(axes_n, &r_t, &v_t, &a_t);
-            let relative = Vector6::new(r_tc.x, r_tc.y, r_tc.z, v_tc.x, v_tc.y, v_tc.z);
-            let sight = sights::metrology(&relative, &target, units)?;
-            self.add(&mut stack, Sensor::Metrology, &z, &sight);
+            let six = |r: Vector3<f64>, v: Vector3<f64>| Vector6::new(r.x, r.y, r.z, v.x, v.y, v.z);
+            let target = six(r_tc + part(x, idx::R_C), v_tc + part(x, idx::V_C));
+            let seen = |target: &Vector6<f64>| {
+                let axes = self.target_axes(target, &part(x, idx::A_T));
+                sights::metrology(&six(r_tc, v_tc), &axes, &self.units)
+            };
+            let first = stack.rows;
+            self.add(&mut stack, Sensor::Metrology, &z, &seen(&target)?);
+            // r_t = r_tc + r_c: the axes hang on both alike.
+            let of_axes = sights::of_axes(&target, &self.units, |target| Ok(seen(target)?.0))?;
+            for states in [idx::R_TC.start, idx::R_C.start] {
+                let mut rows = stack.h.fixed_view_mut::<6, 6>(first, states);
+                rows += of_axes;
+            }
         }
         if stack.h.iter().chain(&stack.innovation).all(|v| v.is_finite()) {
             return Ok(stack);
@@ -175,6 +178,25 @@ impl InertialState {
             t_s: sample.time,
             range_m: r_tc.norm() * self.units.length,
         })
+    }
+
+    /// Axes of the target's orbit, for a target at this position with this velocity.
+    fn target_axes(&self, target: &Vector6<f64>, a_t: &Vector3<f64>) -> Reference {
+        let (r_t, v_t) = (
+            target.fixed_rows::<3>(0).into_owned(),
+            target.fixed_rows::<3>(3).into_owned(),
+        );
+        let a_t = self.dynamics.gravity.acceleration(&r_t, &v_t) + a_t;
+        let axes_n = self
+            .rotating
+            .map_or(AxesN::Inertial, |system| AxesN::Rotating { system, angle: 0.0 });
+        let units = &self.units;
+        Reference::new(
+            axes_n,
+            &(r_t * units.length),
+            &(v_t * units.velocity()),
+            &(a_t * units.acceleration()),
+        )
     }
 
     /// Places of target and chaser, the velocities inertial.
@@ -201,7 +223,9 @@ fn blur(p: &mut StateMatrix, blur: &Blur) {
         p.ger(1.0, &error, &error, 1.0);
     };
     add(&blur.position_n, &Vector3::zeros());
-    add(&Vector3::zeros(), &blur.velocity_n);
+    for velocity_n in &blur.velocity_n {
+        add(&Vector3::zeros(), velocity_n);
+    }
     for axis in 0..3 {
         let mut a = Vector3::zeros();
         a[axis] = blur.acceleration;
