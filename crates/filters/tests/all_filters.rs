@@ -15,7 +15,7 @@ use filters::{FilterError, Navigator, Reading, Sample, Sensor, Settings, Status}
 use formation::{Formation, World};
 use interface::mission::Frame;
 use nalgebra::{Vector3, Vector6};
-use numerics::{Source, rk4, spd, stream};
+use numerics::{Source, rk4, stream};
 use rand_distr::{Distribution, StandardNormal};
 
 fn settings(filter: &str, run: u64) -> Settings {
@@ -55,8 +55,8 @@ fn everywhere(run: u64, s: f64) -> impl Iterator<Item = (String, Navigator, Box<
 
 fn nees(nav: &Navigator, truth: &State) -> f64 {
     let error = (nav.estimate().x - truth).fixed_rows::<9>(0).into_owned();
-    let l = spd::cholesky(&nav.estimate().p_target).unwrap();
-    spd::forward_substitution(&l, &error).norm_squared() / 9.0
+    let p = nav.estimate().p_target.cholesky().unwrap();
+    error.dot(&p.solve(&error)) / 9.0
 }
 
 #[test]
@@ -205,8 +205,8 @@ fn the_j2_filter_is_consistent_in_a_j2_world() {
         let error = (nav.estimate().x.fixed_rows::<9>(0) - world.truth())
             .fixed_rows::<6>(0)
             .into_owned();
-        let l = spd::cholesky(&nav.estimate().p_target.fixed_view::<6, 6>(0, 0).into_owned()).unwrap();
-        nees += spd::forward_substitution(&l, &error).norm_squared() / 6.0;
+        let p = nav.estimate().p_target.fixed_view::<6, 6>(0, 0).into_owned();
+        nees += error.dot(&p.cholesky().unwrap().solve(&error)) / 6.0;
         // What it says of the acceleration beyond Clohessy-Wiltshire is the model's own.
         let d = (nav.estimate().x.fixed_rows::<9>(0) - world.truth())
             .fixed_rows::<3>(6)

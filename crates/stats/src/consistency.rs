@@ -1,7 +1,6 @@
 //! Normalised estimation error squared, and the chi-square bounds a consistent filter stays in.
 
 use nalgebra::{SMatrix, SVector};
-use numerics::spd::{cholesky, forward_substitution};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::StatsError;
@@ -42,8 +41,9 @@ pub fn nees(error: &SVector<f64, 9>, covariance: &SMatrix<f64, 9, 9>, dimension:
             }
         }
     }
-    let l = cholesky(&p).ok_or(StatsError::NotPositiveDefinite { dimension })?;
-    Ok(forward_substitution(&l, &e).norm_squared())
+    let factor = p.cholesky().ok_or(StatsError::NotPositiveDefinite { dimension })?;
+    factor.l_dirty().solve_lower_triangular_unchecked_mut(&mut e);
+    Ok(e.norm_squared())
 }
 
 /// Two-sided bounds of a mean.

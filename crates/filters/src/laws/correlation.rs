@@ -593,17 +593,17 @@ pub(super) mod tests {
         let h = SMatrix::<f64, M, M>::from_diagonal(&sigma.map(|s| 1.0 / s)) * h;
         let r = SMatrix::<f64, M, M>::identity();
         let q_filter = jerk::process_noise_full(&(density * 9.0), dt);
-        let draw = spd::cholesky(&jerk::process_noise_full(density, dt)).unwrap();
+        let draw = jerk::process_noise_full(density, dt).cholesky().unwrap().l();
         let g = &mut stream(8, run, Source::Lidar);
         let (mut e, mut p) = (Target::zeros(), TargetMatrix::identity());
         let mut step = || {
             e = f * e + draw * Target::from_fn(|_, _| normal(g));
             p = f * p * f.transpose() + q_filter;
             let residual = h * e + SVector::<f64, M>::from_fn(|_, _| normal(g));
-            let l = spd::cholesky(&(h * p * h.transpose() + r)).unwrap();
+            let s = (h * p * h.transpose() + r).cholesky().unwrap();
             let mut gain = p * h.transpose();
             for mut row in gain.row_iter_mut() {
-                let solved = spd::cholesky_solve(&l, &row.transpose());
+                let solved = s.solve(&row.transpose());
                 row.copy_from(&solved.transpose());
             }
             let correction = gain * residual;
@@ -641,7 +641,7 @@ pub(super) mod tests {
                     dt_d += found.dt_d;
                     dt_c += found.dt_c;
                 }
-                spd::cholesky_solve(&spd::cholesky(&dt_d).unwrap(), &dt_c)
+                dt_d.cholesky().unwrap().solve(&dt_c)
             })
             .collect();
         let n = batches.len() as f64;

@@ -165,17 +165,14 @@ impl Milton {
         };
         // Lambda- = (I - Lambda (Lambda + Q_w^-1)^-1) Lambda = L (I + q_w L^T L)^-1 L^T with Lambda = L L^T: the same matrix,
         // but as printed it is the difference of two equal numbers once Lambda exceeds 1/q_w by far, which a large s does.
-        let Some(root) = spd::cholesky(&self.information) else {
+        let Some(root) = self.information.cholesky().map(|factor| factor.l()) else {
             return Err(failed);
         };
-        let Some(spread) = spd::cholesky(&(Matrix3::identity() + root.transpose() * root * self.q_w)) else {
+        let Some(spread) = (Matrix3::identity() + root.transpose() * root * self.q_w).cholesky() else {
             return Err(failed);
         };
         let mut half = root.transpose();
-        for mut column in half.column_iter_mut() {
-            let solved = spd::forward_substitution(&spread, &column.clone_owned());
-            column.copy_from(&solved);
-        }
+        spread.l_dirty().solve_lower_triangular_unchecked_mut(&mut half);
         // A random walk leaves s where it is, so d- = Lambda- s.
         let prior = half.transpose() * half;
         // D_hat = D diag(2 s), Eq. (28).
@@ -187,10 +184,10 @@ impl Milton {
         };
         let posterior = prior + spd::symmetrised(&(slope * regression.dt_d * slope)) / self.r_w;
         let d = prior * self.s + slope * fed / self.r_w;
-        let Some(l) = spd::cholesky(&posterior) else {
+        let Some(factor) = posterior.cholesky() else {
             return Err(failed);
         };
-        self.s = spd::cholesky_solve(&l, &d);
+        self.s = factor.solve(&d);
         self.information = posterior;
         self.updates += 1;
         Ok(())

@@ -4,7 +4,7 @@
 
 use crate::error::FilterError;
 use crate::state::N;
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{Cholesky, Const, SMatrix, SVector};
 use numerics::spd;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -51,8 +51,7 @@ impl NotSpd {
 pub struct Innovated<const M: usize> {
     /// S, M x M.
     pub s: SMatrix<f64, M, M>,
-    /// Its lower Cholesky factor.
-    l: SMatrix<f64, M, M>,
+    factor: Cholesky<f64, Const<M>>,
 }
 
 impl<const M: usize> Innovated<M> {
@@ -62,10 +61,12 @@ impl<const M: usize> Innovated<M> {
     pub fn of_leading(&self, innovation: &SVector<f64, M>, rows: usize) -> (f64, f64) {
         // The leading block of a Cholesky factor is the factor of the leading block, and so are the first entries of the
         // solution those of its solution.
-        let whitened = spd::forward_substitution(&self.l, innovation);
+        let l = self.factor.l_dirty();
+        let mut whitened = *innovation;
+        l.solve_lower_triangular_unchecked_mut(&mut whitened);
         let nis = whitened.iter().take(rows).map(|w| w * w).sum::<f64>();
         // One logarithm for all rows; a determinant of thirteen rows is far from overflow in any units.
-        let root_det: f64 = self.l.diagonal().iter().take(rows).product();
+        let root_det: f64 = l.diagonal().iter().take(rows).product();
         let log_likelihood = -0.5 * (nis + rows as f64 * (2.0 * std::f64::consts::PI).ln()) - root_det.ln();
         (nis, log_likelihood)
     }
@@ -86,19 +87,19 @@ pub fn update<const M: usize, const D: usize>(
 ) -> Result<Innovated<M>, NotSpd> {
     let hp = m.h * est.p;
     let s = spd::symmetrised(&(hp * m.h.transpose())) + SMatrix::<f64, M, M>::from_diagonal(&m.r);
-    let l = spd::cholesky(&s).ok_or(NotSpd {
+    let factor = s.cholesky().ok_or(NotSpd {
         min_diagonal: s.diagonal().min(),
     })?;
-    let mut k = SMatrix::<f64, D, M>::zeros();
-    for row in (0..D).filter(|row| !consider.contains(row)) {
-        k.set_row(row, &spd::cholesky_solve(&l, &hp.column(row).into_owned()).transpose());
+    let mut k = factor.solve(&hp).transpose();
+    for row in consider {
+        k.row_mut(row).fill(0.0);
     }
     est.x += k * m.innovation;
     // (I - K H) P (I - K H)^T + K R K^T as L - (L H^T - K R) K^T with L = (I - K H) P: no full 18^3 product.
     let left = est.p - k * hp;
     let k_r = SMatrix::<f64, D, M>::from_fn(|i, j| k[(i, j)] * m.r[j]);
     est.p = spd::symmetrised(&(left - (left * m.h.transpose() - k_r) * k.transpose()));
-    Ok(Innovated { s, l })
+    Ok(Innovated { s, factor })
 }
 
 #[cfg(test)]
@@ -148,7 +149,7 @@ mod tests {
             (est.p - before.p).fixed_view::<6, 6>(9, 9).amax() < 1e-11,
             "consider states keep their covariance"
         );
-        assert!(spd::cholesky(&est.p).is_some());
+        assert!(est.p.cholesky().is_some());
     }
 
     #[test]

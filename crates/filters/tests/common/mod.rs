@@ -9,7 +9,7 @@ use filters::state::State;
 use filters::{Gravity, Reading, Sample, SpecificForce, jerk};
 use interface::mission::InitialSigma;
 use nalgebra::{Matrix3, Vector3};
-use numerics::{Generator, Source, spd, stream};
+use numerics::{Generator, Source, stream};
 use rand_distr::{Distribution, StandardNormal};
 
 /// What a filter is told of a mission that comes with the project.
@@ -67,7 +67,7 @@ impl OwnWorld {
             acceleration: 1e-9,
             bias: 1e-9,
         });
-        let error = spd::cholesky(&p0).unwrap() * State::from_fn(|_, _| normal(&mut g));
+        let error = p0.cholesky().unwrap().l() * State::from_fn(|_, _| normal(&mut g));
         (
             Self {
                 dynamics,
@@ -105,7 +105,7 @@ impl OwnWorld {
         let q = self
             .dynamics
             .process_noise(&jerk::process_noise(&Vector3::repeat(self.s * self.s), 1.0), 1.0);
-        let l = spd::cholesky(&q).unwrap();
+        let l = q.cholesky().unwrap().l();
         self.x += l * State::from_fn(|_, _| normal(&mut self.g));
         self.k += 1;
         let dcm_bc_n = self.attitude();
