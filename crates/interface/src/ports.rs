@@ -150,7 +150,7 @@ pub const PORTS: &[Port] = &[
     row(Sensor, "lidar.azimuth", Real, Scalar, &["rad"], &["measured angle atan(rho_x / rho_z) in LiDAR axes"]),
     row(Sensor, "lidar.elevation", Real, Scalar, &["rad"], &["measured angle atan(rho_y / rho_z) in LiDAR axes"]),
     row(Sensor, "accelerometer.alpha_c_bc", Real, Vector(3), &["m/s2"],
-        &["accelerometer reading, chaser body axes: the acceleration just after the epoch, or the mean since the last sample"]),
+        &["accelerometer reading, chaser body axes: the acceleration just after the epoch, or the mean since the last sample in axes as they are at this one"]),
     row(Sensor, "dcm_bc_n", Real, Matrix(3, 3), &["1"],
         &["attitude of the chaser at the epoch: direction cosine matrix from axes N to chaser body axes"]),
     row(Sensor, "metrology.valid", Boolean, Scalar, &[],

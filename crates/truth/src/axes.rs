@@ -50,6 +50,14 @@ impl Axes {
         }
     }
 
+    /// Components in inertial axes of a vector in N at `t`; undoes [`Axes::held_in_n`].
+    pub(crate) fn held_in_space(&self, t: f64, a: &Vector3<f64>) -> Vector3<f64> {
+        match self {
+            Self::Inertial => *a,
+            Self::Rotating { inertial, .. } => inertial.dcm_n_i(t).tr_mul(a),
+        }
+    }
+
     /// Position and inertial velocity relative to the body that is orbited, in the three-body problem the smaller one.
     pub(crate) fn about_body(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         match self {

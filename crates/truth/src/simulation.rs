@@ -113,7 +113,7 @@ impl Bias {
     }
 }
 
-/// Integral of the specific force in chaser body axes since the accelerometer's last sample.
+/// Integral of the specific force in inertial axes since the accelerometer's last sample.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 struct Felt {
     /// Epoch of the last sample, s since the start of the run.
@@ -356,7 +356,7 @@ impl Simulation {
             self.feel(&instant.push, &begin, elapsed, &instant.state);
             self.felt.there = Some(instant.state);
         }
-        let mean = self.mean_force(elapsed);
+        let mean = self.mean_force(elapsed, &instant.state);
         let scene = scene(&self.world, self.sensors.have_metrology(), instant, mean);
         let time = self.start_time + elapsed;
         self.sensors.sample(&mut self.sample, time, elapsed, &scene);
@@ -368,15 +368,17 @@ impl Simulation {
         measured.then(|| self.felt.there.unwrap_or(self.state))
     }
 
-    /// What the accelerometer has felt since its last sample, in the mean, if that is what it measures now.
-    fn mean_force(&mut self, elapsed: f64) -> Option<Vector3<f64>> {
+    /// What the accelerometer has felt since its last sample, in the mean and in body axes as they are now, if that is what it
+    /// measures now: a strapdown unit turns what it felt earlier along with its axes.
+    fn mean_force(&mut self, elapsed: f64, state: &Vehicles) -> Option<Vector3<f64>> {
         if !(self.sensors.measure_the_mean() && self.sensors.accelerometer_due(elapsed)) {
             return None;
         }
         let mean = self.felt.impulse / (elapsed - self.felt.since);
         self.felt.since = elapsed;
         self.felt.impulse = Vector3::zeros();
-        Some(mean)
+        let mean_n = self.world.axes.held_in_n(elapsed, &mean);
+        Some(self.world.dcm_bc_n(elapsed, state) * mean_n)
     }
 
     /// Goes on with the integral of the specific force to `until`, s since the start of the run and within the present interval
@@ -384,7 +386,8 @@ impl Simulation {
     ///
     /// * `begin`, `end`: states where the integral stands and at `until`.
     ///
-    /// Simpson's rule, with the state half way from the cubic through both ends: off by (turn on the way)^4 / 2880 of it.
+    /// Simpson's rule, with the state half way from the cubic through both ends: off by (turn on the way)^4 / 2880 of a force
+    /// that is fixed in the body.
     fn feel(&mut self, push: &Push, begin: &Vehicles, until: f64, end: &Vehicles) {
         let from = self.felt.until;
         let length = until - from;

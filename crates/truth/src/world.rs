@@ -91,15 +91,12 @@ impl World {
         self.environment.push(sky, &self.chaser_place(state)) + self.push_on_chaser(sky.t, state, &push.chaser)
     }
 
-    /// The same in chaser body axes.
+    /// The same in axes that are fixed in space.
     ///
     /// * `t`: s since the start of the run.
     pub(crate) fn specific_force(&self, t: f64, state: &Vehicles, push: &Push) -> Vector3<f64> {
         let force = self.force_on_chaser(&self.sky(t), state, push);
-        if force == Vector3::zeros() {
-            return force;
-        }
-        self.dcm_bc_n(t, state) * force
+        self.axes.held_in_space(t, &force)
     }
 
     fn chaser_place<'a>(&'a self, state: &'a Vehicles) -> Place<'a> {

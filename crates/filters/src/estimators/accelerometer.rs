@@ -5,9 +5,8 @@ use super::estimator::Gap;
 use crate::dynamics::Thrust;
 use crate::sample::{Sample, SpecificForce};
 use crate::units::Units;
-use astro::attitude;
 use interface::mission::KnownAccelerometer;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// An accelerometer and what it has told; internal units.
@@ -24,8 +23,8 @@ pub(super) struct Accelerometer {
 /// What readings that are means leave behind.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Mean {
-    /// Epoch (s) and attitude of the newest.
-    last: Option<(f64, Matrix3<f64>)>,
+    /// Epoch of the newest, s.
+    last_s: Option<f64>,
     /// Its acceleration, axes N; zero below the gate.
     drive_n: Vector3<f64>,
     /// By how much it differs from the one before.
@@ -47,8 +46,8 @@ pub(super) struct Driven {
 pub(super) struct Blur {
     /// One standard deviation of position, along this.
     pub position_n: Vector3<f64>,
-    /// One standard deviation of velocity along each of these.
-    pub velocity_n: [Vector3<f64>; 2],
+    /// One standard deviation of velocity, along this.
+    pub velocity_n: Vector3<f64>,
     /// Standard deviation of a constant acceleration over the interval, each axis.
     pub acceleration: f64,
     /// The interval.
@@ -84,17 +83,15 @@ impl Accelerometer {
 
     /// What drives the gap up to a sample.
     ///
-    /// A mean is used over the interval since the last one, turned by the attitude half-way between its ends. A force that is
-    /// fixed in space then appears shortened by (turn)^2 / 24, which for a line of sight that turns by 1e-2 rad is 4e-6 and left
-    /// out.
+    /// A mean is used over the interval since the last one. It stands in body axes as they are at its end, into which the unit
+    /// has turned what it felt earlier, so that no turn is left to account for.
     ///
     /// The mean fixes the velocity gained, not when in the interval T it was gained. Let a burn have run in the last interval
     /// and end in this one, or begin in it: with a the mean and a' that of the interval before, the position at the end is off
     /// by at most |a - a'| T^2 / 2, and evenly spread over that when the edge may lie anywhere. So the covariance of the
     /// chaser's position gains a part of standard deviation |a - a'| T^2 / (2 sqrt 3) along the change; nothing where the
     /// chaser does not thrust. A burn that fills neither of two intervals can have the same mean in both; so the change before
-    /// counts too, where it is the larger one. Nor is the attitude known at which such a part was felt: anywhere between the
-    /// ends, so that the velocity gains |turn x (a - a')| T / (2 sqrt 3) across it.
+    /// counts too, where it is the larger one.
     ///
     /// Where other sensors sample in between, T is longer than the gap: the last mean is held meanwhile, its effect made
     /// uncertain, and what it credited too little or too much is made good in the gap at whose end the reading comes.
@@ -109,11 +106,8 @@ impl Accelerometer {
             .accelerometer
             .as_ref()
             .map_or_else(Default::default, |f| self.reading(f));
-        let (last_s, last_dcm) = self.mean.last.unwrap_or((gap.from_s, sample.dcm_bc_n));
-        let interval = (sample.time - last_s) / self.units.time;
-        let dcm_bc_n = attitude::halfway(&last_dcm, &sample.dcm_bc_n);
-        let dcm_n_bc = dcm_bc_n.transpose();
-        let turn_n = dcm_n_bc * attitude::turn(&last_dcm, &sample.dcm_bc_n);
+        let interval = (sample.time - self.mean.last_s.unwrap_or(gap.from_s)) / self.units.time;
+        let dcm_n_bc = sample.dcm_bc_n.transpose();
         let drive_n = if drives {
             dcm_n_bc * (alpha - bias)
         } else {
@@ -132,14 +126,14 @@ impl Accelerometer {
             self.mean.change_n
         };
         self.mean = Mean {
-            last: Some((sample.time, sample.dcm_bc_n)),
+            last_s: Some(sample.time),
             drive_n,
             change_n,
             credited_n: Vector3::zeros(),
         };
         self.held = drives.then_some(Thrust {
             alpha_c_bc: alpha,
-            dcm_n_bc: sample.dcm_bc_n.transpose(),
+            dcm_n_bc,
         });
         if !drives && late_n == Vector3::zeros() {
             return Driven::default();
@@ -147,12 +141,12 @@ impl Accelerometer {
         let root3 = 3.0_f64.sqrt();
         Driven {
             thrust: Some(Thrust {
-                alpha_c_bc: dcm_bc_n * (late_n / dt) + if drives { alpha } else { *bias },
+                alpha_c_bc: sample.dcm_bc_n * (late_n / dt) + if drives { alpha } else { *bias },
                 dcm_n_bc,
             }),
             blur: Some(Blur {
                 position_n: unsure_n * (interval * interval / (2.0 * root3)),
-                velocity_n: [late_n / root3, turn_n.cross(&unsure_n) * (interval / (2.0 * root3))],
+                velocity_n: late_n / root3,
                 acceleration: self.sigma,
                 interval,
             }),
@@ -165,12 +159,12 @@ impl Accelerometer {
             thrust: self.held,
             blur: None,
         };
-        if let (Some(held), Some(_)) = (&self.held, self.mean.last) {
+        if let (Some(held), Some(_)) = (&self.held, self.mean.last_s) {
             let velocity_n = held.dcm_n_bc * (held.alpha_c_bc - bias) * dt;
             self.mean.credited_n += velocity_n;
             driven.blur = Some(Blur {
                 position_n: Vector3::zeros(),
-                velocity_n: [velocity_n / 3.0_f64.sqrt(), Vector3::zeros()],
+                velocity_n: velocity_n / 3.0_f64.sqrt(),
                 acceleration: 0.0,
                 interval: dt,
             });

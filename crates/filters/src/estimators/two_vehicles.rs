@@ -223,9 +223,7 @@ fn blur(p: &mut StateMatrix, blur: &Blur) {
         p.ger(1.0, &error, &error, 1.0);
     };
     add(&blur.position_n, &Vector3::zeros());
-    for velocity_n in &blur.velocity_n {
-        add(&Vector3::zeros(), velocity_n);
-    }
+    add(&Vector3::zeros(), &blur.velocity_n);
     for axis in 0..3 {
         let mut a = Vector3::zeros();
         a[axis] = blur.acceleration;

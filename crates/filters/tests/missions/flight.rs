@@ -131,10 +131,9 @@ impl Flight {
                     .copy_from(&(gravity(t, &part(6), &part(9)) + a_c));
                 dy
             });
-            let before = self.attitude();
             self.x = x;
             self.step += 1;
-            self.felt.0 += astro::attitude::halfway(&before, &self.attitude()) * a_c;
+            self.felt.0 += a_c;
             self.felt.1 += 1.0;
             if let Some(sample) = self.sample(f64::from(self.step) * self.grid) {
                 return sample;
@@ -174,7 +173,7 @@ impl Flight {
             (sample.metrology, any) = (Reading::Seen(z), true);
         }
         if let Some(s) = accelerometer.filter(|s| due(t, Some(s.period_s))) {
-            let mean = self.felt.0 / self.felt.1.max(1.0);
+            let mean = sample.dcm_bc_n * self.felt.0 / self.felt.1.max(1.0);
             self.felt = (Vector3::zeros(), 0.0);
             let alpha = mean + BIAS + self.noise([s.sigma_m_s2; 3]);
             (sample.accelerometer, any) = (Some(SpecificForce::Mean(alpha)), true);

@@ -164,7 +164,8 @@ pub enum AccelerometerOutput {
     /// The specific force just after the epoch, as the papers have it; right only where it is constant until the next sample.
     #[default]
     Instantaneous,
-    /// The mean specific force since the last sample.
+    /// The mean specific force since the last sample, in body axes as they are at this one: as a strapdown unit does, which turns
+    /// what it felt earlier along with its axes.
     Mean,
 }
 
