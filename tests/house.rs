@@ -84,13 +84,13 @@ fn modules(folder: &Path) -> BTreeMap<Vec<String>, String> {
             let file = entry.path();
             let stem = file.file_stem().unwrap().to_string_lossy().into_owned();
             if file.is_dir() {
-                visit(&file, &[path, &[stem]].concat(), found);
+                visit(&file, &[path, std::slice::from_ref(&stem)].concat(), found);
             } else if file.extension().is_some_and(|e| e == "rs") {
                 let text = std::fs::read_to_string(&file).unwrap();
                 let code = text.split("#[cfg(test)]").next().unwrap_or_default().to_owned();
                 let module = match stem.as_str() {
                     "mod" | "lib" | "main" => path.to_vec(),
-                    _ => [path, &[stem]].concat(),
+                    _ => [path, std::slice::from_ref(&stem)].concat(),
                 };
                 found.entry(module).or_default().push_str(&code);
             }
@@ -158,7 +158,7 @@ fn expand(base: &[String], rest: &str, paths: &mut Vec<Vec<String>>) {
     if word.is_empty() {
         return;
     }
-    let path = [base, &[word.clone()]].concat();
+    let path = [base, std::slice::from_ref(&word)].concat();
     match rest[word.len()..].strip_prefix("::") {
         Some(further) => expand(&path, further, paths),
         None => paths.push(path),
@@ -184,7 +184,7 @@ fn passed_on(modules: &BTreeMap<Vec<String>, String>) -> BTreeMap<Vec<String>, V
             expand(&base, tree, &mut paths);
             for path in paths {
                 if let Some(name) = path.last() {
-                    known.insert([module.as_slice(), &[name.clone()]].concat(), path);
+                    known.insert([module.as_slice(), std::slice::from_ref(name)].concat(), path);
                 }
             }
         }

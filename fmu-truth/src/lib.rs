@@ -1,12 +1,14 @@
 //! The simulated world of `crates/truth` as an FMI 2.0 co-simulation slave.
 //!
-//! `variables.rs` is the table of everything a master can see, `model.rs` the adapter between that table and a
-//! [`truth::Simulation`]. Behaviour belongs in `truth`, the C interface in `fmi2-export`; here stands neither.
+//! `variables.rs` is the table of everything a master can see, `slave.rs` what the table reads and writes, around a
+//! [`truth::Simulation`]; `model.rs` answers what FMI asks. Behaviour belongs in `truth`, the C interface in `fmi2-export`;
+//! here stands neither.
 
 mod model;
+mod slave;
 mod variables;
 
-use model::TruthModel;
+use slave::TruthModel;
 
 fmi2_export::export_fmu!(TruthModel);
 

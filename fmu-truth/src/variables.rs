@@ -2,7 +2,7 @@
 //!
 //! Names, units and meanings that outside programs rely on are fixed; more may be added.
 
-use crate::model::TruthModel;
+use crate::slave::TruthModel;
 use fmi2_export::{Table, TableBuilder};
 use interface::Bound;
 use interface::mission::Embedded;

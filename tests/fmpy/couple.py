@@ -53,6 +53,8 @@ class Slave:
             self.set(name, items.index(text) + 1)
         elif variable.type == "Boolean":
             self.set(name, text == "true")
+        elif variable.type == "String":
+            self.set(name, text)
         elif variable.type == "Integer":
             self.set(name, int(text))
         else:
@@ -73,6 +75,7 @@ def main():
     parser.add_argument("--nav", required=True)
     parser.add_argument("--out", required=True)
     parser.add_argument("--scenario", default="leo_venting")
+    parser.add_argument("--mission", help="a mission file, in place of the scenario")
     parser.add_argument("--filter", default="fixed_q")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--run", type=int, default=0)
@@ -84,7 +87,10 @@ def main():
 
     truth, nav = Slave(arguments.truth, "truth"), Slave(arguments.nav, "nav")
     for slave in (truth, nav):
-        slave.set_text("scenario", arguments.scenario)
+        if arguments.mission:
+            slave.set("mission_file", arguments.mission)
+        else:
+            slave.set_text("scenario", arguments.scenario)
         slave.set("study_seed", arguments.seed)
         slave.set("run", arguments.run)
     nav.set_text("filter", arguments.filter)

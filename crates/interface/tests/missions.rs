@@ -251,7 +251,8 @@ fn surroundings_that_make_no_sense_are_refused_in_words() {
     let layer = "drag = { density_kg_m3 = 1e-12, reference_altitude_m = 1e5, scale_height_m = 2e4 }";
     let epoch = "epoch_utc = \"2020-01-01T00:00:00\" # the paper prints none\n";
     // (file, what stands there, what takes its place, what the message must hold)
-    let cases: [(&str, &[(&str, &str)], &str); 13] = [
+    type Changes<'a> = &'a [(&'a str, &'a str)];
+    let cases: [(&str, Changes<'_>, &str); 13] = [
         (FORMATION, &[(epoch, "")], "the places of Sun and Moon needs a date"),
         (
             FORMATION,

@@ -75,7 +75,7 @@ mod tests {
         a_t_n: &Vector3<f64>,
         b: &Vector3<f64>,
     ) -> SVector<f64, 18> {
-        let mut params = Params::default();
+        let mut params = Params::of_scenario(1);
         params.run = run;
         draw_estimate(&params.run().unwrap(), sigma, state, a_t_n, b)
     }

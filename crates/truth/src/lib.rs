@@ -15,6 +15,7 @@
 //! ```
 
 mod attitude;
+mod axes;
 mod disturbances;
 mod environment;
 mod error;

@@ -429,7 +429,7 @@ mod tests {
             "target_burn.a_t_n[4]",
             "target_burn.a_t_n[x",
         ] {
-            let mut params = Params::default();
+            let mut params = Params::of_scenario(1);
             assert!(!params.set(name, 1.0), "{name}");
             assert_eq!(params, Params::default());
         }
@@ -481,7 +481,7 @@ mod tests {
 
     #[test]
     fn angles_are_radians_here_and_degrees_there() {
-        let mut params = Params::default();
+        let mut params = Params::of_scenario(1);
         params.set("lidar.sigma_angle", 0.01);
         let run = params.run().unwrap();
         assert!((run.mission.sensors.lidar.unwrap().sigma_angle_deg - 0.572_957_795_130_823).abs() < 1e-15);
@@ -499,7 +499,7 @@ mod tests {
 
     #[test]
     fn burns_of_the_chaser_can_be_switched_off() {
-        let mut params = Params::default();
+        let mut params = Params::of_scenario(1);
         assert_eq!(params.run().unwrap().mission.burns.len(), 1);
         params.burn_enabled = false;
         assert!(params.run().unwrap().mission.burns.is_empty());
@@ -522,7 +522,7 @@ mod tests {
             (written.target, written.chaser, written.sensors)
         );
         // It says nothing of other missions.
-        let mut other = Params::default();
+        let mut other = Params::of_scenario(1);
         other.formation_forces = Forces::J2;
         assert_eq!(other.run().unwrap(), Params::default().run().unwrap());
     }
@@ -530,7 +530,7 @@ mod tests {
     #[test]
     fn values_out_of_range_are_named_with_their_range() {
         let refused = |name: &str, value: f64| {
-            let mut params = Params::default();
+            let mut params = Params::of_scenario(1);
             assert!(params.set(name, value), "{name}");
             params.run().unwrap_err().to_string()
         };

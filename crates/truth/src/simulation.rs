@@ -311,12 +311,12 @@ impl Simulation {
         while self.interval < interval {
             let push = self.push(self.latched.as_ref().unwrap_or(inputs));
             let until = (self.interval + 1) as f64 * grid;
-            let begin = self.state;
+            let felt_from = self.felt_from();
             self.world.step(&mut self.sky, &mut self.state, &push, grid);
-            if self.sensors.measure_the_mean() {
-                let begin = self.felt.there.take().unwrap_or(begin);
+            if let Some(begin) = felt_from {
                 let end = self.state;
                 self.feel(&push, &begin, until, &end);
+                self.felt.there = None;
             }
             self.bias.step(grid);
             self.interval += 1;
@@ -350,14 +350,22 @@ impl Simulation {
 
     /// Takes the next sample at an instant `offset` seconds into the present interval and `elapsed` after the start of the run.
     fn take_sample(&mut self, elapsed: f64, offset: f64, instant: &Instant) {
-        if offset > 0.0 && self.sensors.measure_the_mean() {
-            let begin = self.felt.there.replace(instant.state).unwrap_or(self.state);
+        // Another sensor's sample adds no point to the sum, so that readings do not know of it.
+        let due = offset > 0.0 && self.sensors.accelerometer_due(elapsed);
+        if let Some(begin) = self.felt_from().filter(|_| due) {
             self.feel(&instant.push, &begin, elapsed, &instant.state);
+            self.felt.there = Some(instant.state);
         }
         let mean = self.mean_force(elapsed);
         let scene = scene(&self.world, self.sensors.have_metrology(), instant, mean);
         let time = self.start_time + elapsed;
         self.sensors.sample(&mut self.sample, time, elapsed, &scene);
+    }
+
+    /// State up to which the specific force has been summed, where the accelerometer measures its mean.
+    fn felt_from(&self) -> Option<Vehicles> {
+        let measured = self.sensors.measure_the_mean();
+        measured.then(|| self.felt.there.unwrap_or(self.state))
     }
 
     /// What the accelerometer has felt since its last sample, in the mean, if that is what it measures now.

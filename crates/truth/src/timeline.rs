@@ -123,8 +123,6 @@ pub struct Timeline {
     events: Vec<Event>,
     /// The longest of them, s.
     longest: f64,
-    /// End of the last to end, s.
-    end: f64,
 }
 
 impl Timeline {
@@ -132,8 +130,7 @@ impl Timeline {
     pub fn new(mut events: Vec<Event>) -> Self {
         events.sort_by(|a, b| a.start.total_cmp(&b.start));
         let longest = events.iter().map(|e| e.duration).fold(0.0, f64::max);
-        let end = events.iter().map(|e| e.start + e.duration).fold(0.0, f64::max);
-        Self { events, longest, end }
+        Self { events, longest }
     }
 
     /// The events, by begin.
@@ -150,15 +147,14 @@ impl Timeline {
     ///
     /// * `begin`, `length`: of the interval, s since the start of the run.
     /// * `n_from_inertial`: turns inertial axes into N at the middle of the interval.
+    #[inline]
     pub fn push_over(&self, begin: f64, length: f64, n_from_inertial: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Push {
         let mut push = Push::default();
-        // Quick where nothing has begun yet or everything is over, which is most of the time.
-        let end = begin + length;
-        if begin >= self.end || self.events.first().is_none_or(|e| e.start >= end) {
-            return push;
-        }
         let first = self.events.partition_point(|e| e.start + self.longest <= begin);
-        for event in self.events[first..].iter().take_while(|e| e.start < end) {
+        for event in &self.events[first..] {
+            if event.start >= begin + length {
+                break;
+            }
             if event.start + event.duration > begin {
                 event.add_to(&mut push, begin, length, &n_from_inertial);
             }

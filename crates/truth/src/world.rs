@@ -1,14 +1,13 @@
 //! The physics of one mission: environment, vehicles and axes, made once for a run. It keeps no state of the motion.
 
-use astro::cr3bp::InertialAxes;
-use astro::relative_axes::AxesN;
-use astro::{Cr3bpSystem, frames};
+use astro::frames;
 use interface::mission::{self, Mission};
 use nalgebra::{Matrix3, Vector3};
 use numerics::rk4::{Stage, step_in_stages};
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::{Attitude, Sight};
+use crate::axes::Axes;
 use crate::environment::{Environment, Place, Sky, Surface};
 use crate::timeline::{Push, Thrust, Timeline};
 use crate::{TruthError, Vehicles};
@@ -36,64 +35,6 @@ impl Craft {
         Self {
             surface: Surface::of(vehicle),
             attitude: Attitude::of(vehicle.attitude),
-        }
-    }
-}
-
-/// Axes N: inertial ones, or those that turn with the two bodies of the three-body problem about z.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(crate) enum Axes {
-    Inertial,
-    Rotating { system: Cr3bpSystem, from: InertialAxes },
-}
-
-impl Axes {
-    fn of(mission: &Mission) -> Result<Self, TruthError> {
-        let Some(p) = mission.environment.gravity.cr3bp() else {
-            return Ok(Self::Inertial);
-        };
-        Ok(Self::Rotating {
-            system: Cr3bpSystem::new(p.mass_ratio, p.length_m, p.time_s)?,
-            from: InertialAxes {
-                angle_at_end: p.inertial_angle_at_end_rad,
-                end: mission.time.duration_s,
-                time: p.time_s,
-            },
-        })
-    }
-
-    /// Maps inertial axes to N at `t`, s since the start of the run.
-    pub(crate) fn dcm_n_i(&self, t: f64) -> Matrix3<f64> {
-        match self {
-            Self::Inertial => Matrix3::identity(),
-            Self::Rotating { from, .. } => from.dcm_n_i(t),
-        }
-    }
-
-    /// Components in N of a vector that is fixed in inertial axes.
-    fn from_inertial(&self, t: f64, a: &Vector3<f64>) -> Vector3<f64> {
-        match self {
-            Self::Inertial => *a,
-            Self::Rotating { from, .. } => from.dcm_n_i(t) * a,
-        }
-    }
-
-    /// Position and inertial velocity relative to the body that is orbited, in the three-body problem the smaller one.
-    pub(crate) fn about_body(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
-        match self {
-            Self::Inertial => (*r, *v),
-            Self::Rotating { system, .. } => system.about_secondary(r, v),
-        }
-    }
-
-    /// The axes as they stand at `t`, s since the start of the run.
-    pub(crate) fn at(&self, t: f64) -> AxesN {
-        match self {
-            Self::Inertial => AxesN::Inertial,
-            Self::Rotating { system, from } => AxesN::Rotating {
-                system: *system,
-                angle: from.angle(t),
-            },
         }
     }
 }
@@ -235,7 +176,7 @@ impl World {
     pub(crate) fn push_over(&self, timeline: &Timeline, interval: u64) -> Push {
         let begin = interval as f64 * self.grid;
         let middle = begin + 0.5 * self.grid;
-        timeline.push_over(begin, self.grid, |a| self.axes.from_inertial(middle, a))
+        timeline.push_over(begin, self.grid, |a| self.axes.held_in_n(middle, a))
     }
 
     /// Goes on by a step of length `h`, s; negative: backwards.

@@ -2,10 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::FieldError;
-
-/// Highest degree and order of a field.
-pub const MAX_DEGREE: usize = 20;
+use super::error::FieldError;
+use super::format::MAX_DEGREE;
 
 /// Fully normalised coefficients of a gravity field to some degree and order.
 ///

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::MAX_DEGREE;
+use super::format::MAX_DEGREE;
 
 /// A gravity field that cannot be built, or a coefficient file that cannot be read.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -104,7 +104,7 @@ pub enum FieldError {
         fault: Fault,
     },
     /// The file ends before its header.
-    #[error("{file}: no line \"{}\"", super::file::HEADER)]
+    #[error("{file}: no line \"{}\"", super::format::HEADER)]
     NoHeader {
         /// The file.
         file: String,
@@ -147,8 +147,8 @@ pub enum Fault {
     /// A line before the header that is none of what may stand there.
     #[error(
         "\"{found}\": {} or the header \"{}\" stand here",
-        super::file::constants(),
-        super::file::HEADER
+        super::format::constants(),
+        super::format::HEADER
     )]
     Preamble {
         /// The line.
@@ -169,7 +169,7 @@ pub enum Fault {
         found: String,
     },
     /// A row with too few or too many columns.
-    #[error("{found} columns: a row has the four of \"{}\"", super::file::HEADER)]
+    #[error("{found} columns: a row has the four of \"{}\"", super::format::HEADER)]
     Columns {
         /// How many there are.
         found: usize,

@@ -24,17 +24,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::{Coefficients, Fault, FieldError, MAX_DEGREE};
-
-/// Header of the rows.
-pub(super) const HEADER: &str = "degree,order,c,s";
-/// Names of the constants before it.
-const CONSTANTS: [&str; 2] = ["mu_m3_s2", "radius_m"];
-
-/// The constants, as a message lists them.
-pub(super) fn constants() -> String {
-    CONSTANTS.map(|key| format!("\"{key} = ...\"")).join(", ")
-}
+use super::coefficients::Coefficients;
+use super::error::{Fault, FieldError};
+use super::format::{CONSTANTS, HEADER, MAX_DEGREE};
 
 /// How much of a file is used; what is `None` is as much as the file has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

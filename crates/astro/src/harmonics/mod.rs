@@ -6,13 +6,15 @@
 mod coefficients;
 mod error;
 pub mod file;
+mod format;
 
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-pub use coefficients::{Coefficients, EGM96, EMBEDDED, Embedded, MAX_DEGREE};
+pub use coefficients::{Coefficients, EGM96, EMBEDDED, Embedded};
 pub use error::{Fault, FieldError};
 pub use file::Extent;
+pub use format::MAX_DEGREE;
 
 /// A gravity field ready for evaluation: potential, acceleration and gradient in body-fixed axes.
 ///

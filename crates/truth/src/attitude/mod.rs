@@ -9,7 +9,7 @@ use interface::mission;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::world::Axes;
+use crate::axes::Axes;
 use inertial::Inertial;
 use line_of_sight::LineOfSight;
 use rtn::Rtn;

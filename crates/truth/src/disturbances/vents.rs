@@ -98,7 +98,7 @@ mod tests {
     use interface::mission::Mission;
 
     fn of(run: u32) -> Run {
-        let mut params = Params::default();
+        let mut params = Params::of_scenario(1);
         params.run = run;
         params.run().unwrap()
     }

@@ -137,6 +137,7 @@ impl Environment {
     }
 
     /// What it looks like at `t`, s since the start of the run.
+    #[inline]
     pub(crate) fn sky(&self, t: f64) -> Sky {
         self.almanac.at(t)
     }

@@ -46,6 +46,13 @@ pub(crate) struct Sky {
     pub places: [Vector3<f64>; MOST_BODIES],
 }
 
+/// A sky of which nothing is asked.
+const EMPTY: Sky = Sky {
+    t: 0.0,
+    dcm_f_n: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    places: [Vector3::new(0.0, 0.0, 0.0); MOST_BODIES],
+};
+
 impl Almanac {
     /// The almanac that the models of a mission ask for.
     ///
@@ -95,12 +102,12 @@ impl Almanac {
     }
 
     /// * `t`: s since the start of the run.
+    #[inline]
     pub(super) fn at(&self, t: f64) -> Sky {
-        let mut sky = Sky {
-            t,
-            dcm_f_n: Matrix3::zeros(),
-            places: [Vector3::zeros(); MOST_BODIES],
-        };
+        let mut sky = Sky { t, ..EMPTY };
+        if !self.recipe.turn && self.bodies.is_empty() {
+            return sky;
+        }
         match (self.recipe.turn, &self.recipe.rotation, &self.centre) {
             (true, Some(rotation), _) => sky.dcm_f_n = rotation.dcm_f_n(t),
             (true, None, Some(centre)) => sky.dcm_f_n = centre.dcm_f_n(t),

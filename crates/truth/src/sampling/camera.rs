@@ -4,11 +4,11 @@ use astro::frames;
 use interface::mission;
 use numerics::Generator;
 use numerics::streams::{Source, stream};
-use sensors::{lidar, normal3};
+use sensors::{View, camera, normal3};
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
-use super::faults::{Faults, View};
+use super::faults::Faults;
 use crate::overrides::Run;
 
 /// What the camera says of one sample.
@@ -59,9 +59,9 @@ impl Camera {
         if !seen.valid {
             return;
         }
-        let truth = lidar::measure(&rho_l);
+        let truth = camera::measure(&rho_l);
         let noise = unit * (self.sigma * fault.scale);
-        seen.azimuth = truth[1] + noise[1];
-        seen.elevation = truth[2] + noise[2];
+        seen.azimuth = truth[0] + noise[1];
+        seen.elevation = truth[1] + noise[2];
     }
 }

@@ -1,7 +1,6 @@
-//! Dropouts, outliers and the limits of sight, which the sensors of the target share.
+//! Dropouts, outliers and the greatest range, which the sensors of the target share.
 
 use interface::mission;
-use nalgebra::Vector3;
 use numerics::Generator;
 use numerics::streams::{Source, named_stream, stream};
 use rand::RngExt;
@@ -59,47 +58,5 @@ impl Faults {
             dropped: dropped || range > self.max_range,
             scale: if outlier { self.outlier_scale } else { 1.0 },
         }
-    }
-}
-
-/// A square field of view in front of a sensor.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct View {
-    /// Tangent of half of its width.
-    reach: f64,
-}
-
-impl View {
-    /// * `width`: full, rad, below pi.
-    pub(super) fn of_width(width: f64) -> Self {
-        Self {
-            reach: (0.5 * width).tan(),
-        }
-    }
-
-    /// Whether a target lies in it.
-    ///
-    /// * `rho_l`: target relative to the sensor, axes L (boresight z), m.
-    pub(super) fn holds(&self, rho_l: &Vector3<f64>) -> bool {
-        let reach = rho_l.z * self.reach;
-        rho_l.z > 0.0 && rho_l.x.abs() <= reach && rho_l.y.abs() <= reach
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn view_is_a_square_in_front() {
-        let view = View::of_width(5.0_f64.to_radians());
-        let at = |x_deg: f64, y_deg: f64, z: f64| {
-            let place = Vector3::new(x_deg.to_radians().tan() * z, y_deg.to_radians().tan() * z, z);
-            view.holds(&place)
-        };
-        assert!(at(0.0, 0.0, 10.0) && at(2.49, -2.49, 10.0));
-        assert!(!at(2.51, 0.0, 10.0) && !at(0.0, -2.51, 10.0));
-        assert!(!at(0.0, 0.0, -10.0), "behind the sensor");
-        assert!(!view.holds(&Vector3::zeros()) && !view.holds(&Vector3::repeat(f64::NAN)));
     }
 }

@@ -5,11 +5,11 @@ use interface::mission;
 use nalgebra::Vector3;
 use numerics::Generator;
 use numerics::streams::{Source, stream};
-use sensors::{lidar, normal3};
+use sensors::{View, lidar, normal3};
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
-use super::faults::{Faults, View};
+use super::faults::Faults;
 use crate::overrides::Run;
 
 /// What the LiDAR says of one sample.

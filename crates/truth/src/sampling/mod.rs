@@ -201,7 +201,7 @@ mod tests {
 
     /// Samples of noise-free sensors of these places, one a second.
     fn seen(extra: &str, places: &[[f64; 3]]) -> Vec<SensorSample> {
-        let mut params = Params::default();
+        let mut params = Params::of_scenario(1);
         for name in ["lidar.sigma_range", "lidar.sigma_angle"] {
             params.set(name, 0.0);
         }

@@ -3,7 +3,7 @@
 use interface::mission;
 use numerics::Generator;
 use numerics::streams::{Source, stream};
-use sensors::normal3;
+use sensors::{normal3, radio};
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
@@ -51,16 +51,15 @@ impl Radio {
 
     pub(super) fn sample(&mut self, seen: &mut RadioSample, scene: &Scene) {
         let unit = normal3(&mut self.noise);
-        let range = scene.r_tc_n.norm();
-        let fault = self.faults.draw(range);
+        let truth = radio::measure(&scene.r_tc_n, &scene.v_tc_n);
+        let fault = self.faults.draw(truth[0]);
         // Two vehicles in one place have no line of sight.
         seen.due = true;
-        seen.valid = !fault.dropped && range > 0.0;
+        seen.valid = !fault.dropped && truth[0] > 0.0;
         if !seen.valid {
             return;
         }
-        let rate = scene.r_tc_n.dot(&scene.v_tc_n) / range;
-        seen.range = range + unit[0] * self.sigma_range * fault.scale;
-        seen.range_rate = rate + unit[1] * self.sigma_range_rate * fault.scale;
+        seen.range = truth[0] + unit[0] * self.sigma_range * fault.scale;
+        seen.range_rate = truth[1] + unit[1] * self.sigma_range_rate * fault.scale;
     }
 }

@@ -9,8 +9,8 @@ use astro::{AstroError, Coefficients, Cr3bpSystem, Elements};
 use interface::Mission;
 use interface::mission::{First, Gravity, Magnitude, Which, embedded};
 use nalgebra::Vector3;
+use rasciigraph::Config;
 use study::{MISSION, Models, Plan, StudyError, World};
-use textplots::{Chart, Plot, Shape};
 
 use super::super::shared::{Verdict, models, say, scratch};
 use super::flight::{Flight, Point, SENSORS, fly};
@@ -252,22 +252,19 @@ fn sensors(world: &World, flight: &Flight) -> String {
 
 /// Distance over time.
 fn plot(flight: &Flight) -> String {
-    let (Some(first), Some(last)) = (flight.points.first(), flight.points.last()) else {
+    const WIDTH: usize = 90;
+    let Some(last) = flight.points.last() else {
         return String::new();
     };
-    let every = flight.points.len().div_ceil(400).max(1);
-    let line: Vec<(f32, f32)> = flight
-        .points
-        .iter()
-        .step_by(every)
-        .map(|p| (p.t as f32, p.r_tc.norm() as f32))
-        .collect();
-    let shape = Shape::Lines(&line);
-    let mut chart = Chart::new(140, 40, first.t as f32, last.t as f32);
-    let chart = chart.lineplot(&shape);
-    chart.axis();
-    chart.figures();
-    format!("Distance [m] over time [s]\n{chart}")
+    let column = |i: usize| {
+        flight
+            .points
+            .get(i * (flight.points.len() - 1) / (WIDTH - 1))
+            .map_or(0.0, |p| p.r_tc.norm())
+    };
+    let caption = format!("distance [m], 0 to {} s", last.t);
+    let config = Config::default().with_height(11).with_caption(caption);
+    rasciigraph::plot((0..WIDTH).map(column).collect(), config)
 }
 
 /// Flies it again with half the time grid and says what that moves.
