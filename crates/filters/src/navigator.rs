@@ -308,3 +308,54 @@ impl Navigator {
         self.law.skipped()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::Reading;
+    use nalgebra::{Matrix3, Vector3};
+
+    /// What a law is handed against the formulas of the update, the inverse formed.
+    #[test]
+    fn a_law_sees_the_update_that_was_made() {
+        let mission = interface::mission::embedded("leo_venting").unwrap();
+        let told = mission.mission().unwrap().navigation();
+        let mut nav = Navigator::new(&told, &Settings::default(), 0.0).unwrap();
+        let mut start = State::zeros();
+        start
+            .fixed_rows_mut::<6>(0)
+            .copy_from_slice(&[20.0, 500.0, -30.0, 0.1, -0.5, 0.2]);
+        start
+            .fixed_rows_mut::<6>(9)
+            .copy_from_slice(&[6.878e6, 0.0, 0.0, 0.0, 7.3e3, 2.0e3]);
+        let mut sample = Sample::blank(1, 1.0);
+        sample.lidar = Reading::Seen(Vector3::new(503.0, 0.06, 0.04));
+        let gap = Gap {
+            from_s: 0.0,
+            length_s: 1.0,
+            start_s: 0.0,
+        };
+        let estimator = nav.estimator.get_mut();
+        estimator.start(&start, 1.0).unwrap();
+        // Body axes along N: the boresight is y.
+        let f = estimator.propagate(&gap, &sample, &nav.law).unwrap();
+        let mut step = Step::blank(1.0, f);
+        let seen = estimator.update(&sample, &mut step).unwrap().unwrap();
+        assert!(step.measured.count() == 3 && step.measured.has(2) && !step.measured.has(3));
+        let (h, p) = (step.h.fixed_rows::<3>(0).into_owned(), step.p_prior);
+        let r = Matrix3::from_diagonal(&Kind::noise(&told).fixed_rows::<3>(0).into_owned());
+        let s = h * p * h.transpose() + r;
+        assert!((step.s.fixed_view::<3, 3>(0, 0) - s).amax() < 1e-9 * s.amax());
+        let inverse = s.try_inverse().unwrap();
+        // The gain on the target's states is the optimal one, consider states or not.
+        let gain = p * h.transpose() * inverse;
+        let post = p - gain * s * gain.transpose();
+        assert!((step.p_post - post).amax() < 1e-9 * p.amax());
+        let v = step.innovation.fixed_rows::<3>(0).into_owned();
+        assert!((step.correction - gain * v).amax() < 1e-8);
+        let nis = (v.transpose() * inverse * v)[0];
+        let log_likelihood = -0.5 * (nis + s.determinant().ln() + 3.0 * (2.0 * std::f64::consts::PI).ln());
+        assert!((seen.nis / nis - 1.0).abs() < 1e-8, "{} {nis}", seen.nis);
+        assert!((step.log_likelihood - log_likelihood).abs() < 1e-8 * log_likelihood.abs().max(1.0));
+    }
+}

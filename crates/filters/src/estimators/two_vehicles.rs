@@ -54,6 +54,8 @@ struct Stack {
     places: [usize; MAX_ROWS],
     target_rows: usize,
     rows: usize,
+    /// Whether every prediction and its partials are finite.
+    sound: bool,
 }
 
 impl Stack {
@@ -65,6 +67,7 @@ impl Stack {
             places: [0; MAX_ROWS],
             target_rows: 0,
             rows: 0,
+            sound: true,
         }
     }
 
@@ -138,6 +141,7 @@ impl InertialState {
             stack.h.fixed_view_mut::<1, 6>(at, 0).copy_from(&h.fixed_rows::<1>(row));
         }
         stack.target_rows = stack.rows;
+        stack.sound &= h.iter().chain(predicted).all(|v| v.is_finite());
     }
 
     /// What the sensors of the target say at the estimate `x`.
@@ -171,7 +175,7 @@ impl InertialState {
                 rows += of_axes;
             }
         }
-        if stack.h.iter().chain(&stack.innovation).all(|v| v.is_finite()) {
+        if stack.sound {
             return Ok(stack);
         }
         Err(FilterError::LineOfSightUndefined {
@@ -198,17 +202,19 @@ impl InertialState {
             &(a_t * units.acceleration()),
         )
     }
+}
 
-    /// Places of target and chaser, the velocities inertial.
-    fn places(&self, x: &State) -> (Place, Place) {
-        let of = |r: Vector3<f64>, v: Vector3<f64>| {
-            let (r_n, v_n) = (r * self.units.length, v * self.units.velocity());
-            let (r_n, v_n) = self.rotating.map_or((r_n, v_n), |s| s.about_secondary(&r_n, &v_n));
-            Place { r_n, v_n }
-        };
-        let (r_c, v_c) = (part(x, idx::R_C), part(x, idx::V_C));
-        (of(part(x, idx::R_TC) + r_c, part(x, idx::V_TC) + v_c), of(r_c, v_c))
-    }
+/// Places of target and chaser, the velocities inertial.
+///
+/// * `rotating`: set where axes N turn.
+fn places(x: &State, units: &Units, rotating: Option<&Cr3bpSystem>) -> (Place, Place) {
+    let of = |r: Vector3<f64>, v: Vector3<f64>| {
+        let (r_n, v_n) = (r * units.length, v * units.velocity());
+        let (r_n, v_n) = rotating.map_or((r_n, v_n), |s| s.about_secondary(&r_n, &v_n));
+        Place { r_n, v_n }
+    };
+    let (r_c, v_c) = (part(x, idx::R_C), part(x, idx::V_C));
+    (of(part(x, idx::R_TC) + r_c, part(x, idx::V_TC) + v_c), of(r_c, v_c))
 }
 
 /// Lets the covariance grow by what is not known of the chaser's thrust; the relative states have its opposite.
@@ -295,9 +301,7 @@ impl Estimator for InertialState {
 
     fn propagate(&mut self, gap: &Gap, sample: &Sample, law: &dyn Adaptation) -> Result<TargetMatrix, FilterError> {
         let mut total = TargetMatrix::identity();
-        let Some(mut core) = self.core.take() else {
-            return Ok(total);
-        };
+        let Some(core) = &mut self.core else { return Ok(total) };
         let bias = part(&core.x, idx::B_C);
         let driven = self
             .accelerometer
@@ -313,7 +317,7 @@ impl Estimator for InertialState {
             let middle = t + length / 2.0;
             self.dynamics.gravity.turn_to(middle)?;
             if !self.told.is_empty() {
-                let (target, chaser) = self.places(&core.x);
+                let (target, chaser) = places(&core.x, &self.units, self.rotating.as_ref());
                 let dcm_n_bc = sample.dcm_bc_n.transpose();
                 let (target, chaser) = self.told.at(middle, Some((&target, &chaser)), &dcm_n_bc);
                 drive.told_t_n = target / self.units.acceleration();
@@ -322,36 +326,35 @@ impl Estimator for InertialState {
             let dt = length / self.units.time;
             let f = self
                 .dynamics
-                .predict(&mut core, dt, &drive, law.disturbance(), &law.process_noise(dt));
+                .predict(core, dt, &drive, law.disturbance(), &law.process_noise(dt));
             total = f.fixed_view::<9, 9>(0, 0) * total;
             t += length;
         }
         if let Some(unknown) = &driven.blur {
             blur(&mut core.p, unknown);
         }
-        self.core = Some(core);
         Ok(total)
     }
 
     fn update(&mut self, sample: &Sample, step: &mut Step) -> Result<Option<Innovation>, FilterError> {
-        let Some(mut core) = self.core.take() else {
+        let Some(prior) = self.core.as_ref().map(|core| core.x) else {
             return Ok(None);
         };
-        let prior = core.x;
-        step.p_prior = core.p.fixed_view::<9, 9>(0, 0).into_owned();
-        let mut stack = self.seen(&core.x, sample)?;
+        let mut stack = self.seen(&prior, sample)?;
         if let Some(accelerometer) = &mut self.accelerometer {
             accelerometer.take(sample);
             if let Some(alpha) = accelerometer.of_bias(sample) {
                 // An identity under b_c (Eq. 11 prints extra zeros).
                 for (axis, slot) in idx::B_C.enumerate() {
-                    let row = stack.push(alpha[axis] - core.x[slot], accelerometer.variance());
+                    let row = stack.push(alpha[axis] - prior[slot], accelerometer.variance());
                     stack.h[(row, slot)] = 1.0;
                 }
             }
         }
-        let nis = update_rows!(&mut core, stack, step; 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16)
-            .map_err(|e| e.at(sample.time))?;
+        let Some(core) = &mut self.core else { return Ok(None) };
+        step.p_prior.copy_from(&core.p.fixed_view::<9, 9>(0, 0));
+        let nis =
+            update_rows!(core, stack, step; 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16).map_err(|e| e.at(sample.time))?;
         for (row, place) in stack.places[..stack.target_rows].iter().enumerate() {
             step.measured.mark(*place..place + 1);
             step.innovation[*place] = stack.innovation[row];
@@ -360,8 +363,7 @@ impl Estimator for InertialState {
                 .copy_from(&stack.h.fixed_view::<1, 9>(row, 0));
         }
         step.correction = (core.x - prior).fixed_rows::<9>(0).into_owned();
-        step.p_post = core.p.fixed_view::<9, 9>(0, 0).into_owned();
-        self.core = Some(core);
+        step.p_post.copy_from(&core.p.fixed_view::<9, 9>(0, 0));
         if stack.target_rows == 0 {
             return Ok(None);
         }
