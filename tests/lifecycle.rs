@@ -43,7 +43,7 @@ fn items(name: &str) -> impl Iterator<Item = &str> {
 
 /// Filters that have a meaning in a scenario.
 fn filters(scenario: &str) -> impl Iterator<Item = &str> {
-    items("filter").filter(move |filter| TOLD.without_meaning(filter, scenario).is_none())
+    items("filter").filter(move |filter| TOLD.without_meaning(filter, scenario, "of a scenario").is_none())
 }
 
 /// Noise, faults and a push of the target, so that every random stream and every latch is in use.

@@ -102,6 +102,7 @@ fn annotated() -> Filters {
                 filter: filter.name.to_owned(),
                 name: preset.name.to_owned(),
                 about: preset.about.to_owned(),
+                other_reading: preset.other_reading,
                 sets: preset
                     .sets
                     .iter()
@@ -128,6 +129,7 @@ fn annotated() -> Filters {
                     .filter(has_meaning)
                     .map(|entry| entry.name.to_owned())
                     .collect(),
+                frame: Some("lvlh".to_owned()),
                 why: why.to_owned(),
             }
         }));

@@ -20,6 +20,19 @@ pub enum HarnessError {
     /// An orbit, a field of gravity or a date that makes no sense.
     #[error(transparent)]
     Astro(#[from] astro::AstroError),
+    /// A mission that leads into its central body.
+    #[error(
+        "a vehicle is below the surface of the central body at {time} s: the orbit, the relative start or a burn is wrong"
+    )]
+    BelowSurface {
+        /// When, s.
+        time: f64,
+    },
+    /// A mission whose sensors never see the target.
+    #[error(
+        "no sensor ever sees the target: attitude, field_of_view_deg, max_range_m and period_s decide what is seen"
+    )]
+    SeesNothing,
     /// A file that is not overwritten.
     #[error("{} exists already; name another, or move it away", path.display())]
     Exists {

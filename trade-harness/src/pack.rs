@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 use fmi2_import::{Causality, Fmu, LIBRARY_SUFFIX, ModelDescription, PLATFORM};
 use interface::annotation::Filters;
 use interface::mission::{Document, EMBEDDED, PACKED, SHIPPED, guid_with};
-use study::{NAV, StudyError, TRUTH, filters_of};
+use study::{NAV, StudyError, TRUTH, World, filters_of};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
@@ -54,7 +54,7 @@ pub fn fmu_path(folder: &Path, name: &str) -> PathBuf {
 /// [`HarnessError::NoWorkspace`], [`HarnessError::NoCargo`], [`HarnessError::Build`], [`HarnessError::NoLibrary`],
 /// reading, writing and zip errors, and [`HarnessError::DoesNotStart`] for a library and description that do not belong together.
 pub fn pack(workspace: &Path, folder: &Path, mission: Option<&Path>, quiet: bool) -> Result<Vec<Packed>, HarnessError> {
-    let resources = resources(mission)?;
+    let (world, resources) = resources(mission)?;
     let libraries = build(workspace, quiet)?;
     let mut packed = Vec::new();
     for (name, identifier) in FMUS {
@@ -68,7 +68,10 @@ pub fn pack(workspace: &Path, folder: &Path, mission: Option<&Path>, quiet: bool
         let mut files = BTreeMap::from([
             (
                 "modelDescription.xml".to_owned(),
-                described(read(&description)?, resources.get(&packed_mission())),
+                described(
+                    read(&description)?,
+                    world.as_ref().zip(resources.get(&packed_mission())),
+                ),
             ),
             (
                 format!("binaries/{PLATFORM}/{identifier}.{LIBRARY_SUFFIX}"),
@@ -98,7 +101,7 @@ fn packed_mission() -> String {
 }
 
 /// The missions that come with an FMU, and the one it is packed with, with the files that it names.
-fn resources(mission: Option<&Path>) -> Result<BTreeMap<String, Vec<u8>>, HarnessError> {
+fn resources(mission: Option<&Path>) -> Result<(Option<World>, BTreeMap<String, Vec<u8>>), HarnessError> {
     let mut files: BTreeMap<String, Vec<u8>> = EMBEDDED
         .iter()
         .map(|entry| {
@@ -106,11 +109,13 @@ fn resources(mission: Option<&Path>) -> Result<BTreeMap<String, Vec<u8>>, Harnes
             (name, entry.text.as_bytes().to_vec())
         })
         .collect();
-    let Some(path) = mission else { return Ok(files) };
+    let Some(path) = mission else {
+        return Ok((None, files));
+    };
     let told = |source| HarnessError::from(StudyError::from(source));
     let mut document = Document::read(path).map_err(told)?;
     // What is wrong with it is told here rather than by the FMU.
-    document.mission().map_err(told)?;
+    let world = World::of(document.mission().map_err(told)?)?;
     for (key, field) in document.files().map_err(told)? {
         let name = field
             .file_name()
@@ -120,18 +125,27 @@ fn resources(mission: Option<&Path>) -> Result<BTreeMap<String, Vec<u8>>, Harnes
         document.set(key, &format!("\"fields/{name}\"")).map_err(told)?;
     }
     files.insert(packed_mission(), document.text().as_bytes().to_vec());
-    Ok(files)
+    Ok((Some(world), files))
 }
 
-/// A model description with the identifier that belongs to the mission inside.
-fn described(xml: Vec<u8>, mission: Option<&Vec<u8>>) -> Vec<u8> {
-    let Some(mission) = mission else { return xml };
+/// A model description with the identifier, the length of a run and the step that belong to the mission inside.
+fn described(xml: Vec<u8>, mission: Option<(&World, &Vec<u8>)>) -> Vec<u8> {
+    let Some((world, mission)) = mission else { return xml };
     let text = String::from_utf8_lossy(&xml).into_owned();
-    let own = text.split("guid=\"").nth(1).and_then(|rest| rest.split('"').next());
-    match own {
-        Some(own) => text.replace(own, &guid_with(own, mission)).into_bytes(),
-        None => xml,
-    }
+    let own = attribute(&text, "guid").to_owned();
+    let with = |text: String, name: &str, value: String| {
+        let old = format!("{name}=\"{}\"", attribute(&text, name));
+        text.replacen(&old, &format!("{name}=\"{value}\""), 1)
+    };
+    let text = with(text, "guid", guid_with(&own, mission));
+    let text = with(text, "stopTime", world.duration_s.to_string());
+    with(text, "stepSize", world.sample_period_s.to_string()).into_bytes()
+}
+
+/// Value of the first attribute of this name.
+fn attribute<'a>(xml: &'a str, name: &str) -> &'a str {
+    let rest = xml.split_once(&format!("{name}=\"")).map_or("", |(_, rest)| rest);
+    rest.split('"').next().unwrap_or_default()
 }
 
 /// Runs cargo; returns the shared library of each identifier.

@@ -135,6 +135,8 @@ pub struct Preset {
     pub name: &'static str,
     /// What it is for.
     pub about: &'static str,
+    /// Whether it reads its source in another way, which is a filter of its own in a search.
+    pub other_reading: bool,
     /// Tunable (without prefix) and value as text.
     pub sets: &'static [(&'static str, &'static str)],
 }

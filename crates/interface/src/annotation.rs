@@ -34,6 +34,9 @@ pub struct Preset {
     /// What it stands for.
     #[serde(rename = "@about", default)]
     pub about: String,
+    /// Whether it reads its source in another way, which is a filter of its own in a search.
+    #[serde(rename = "@otherReading", default, skip_serializing_if = "std::ops::Not::not")]
+    pub other_reading: bool,
     /// What it sets.
     #[serde(rename = "Set", default)]
     pub sets: Vec<Set>,
@@ -73,6 +76,9 @@ pub struct Only {
     /// The scenarios in which it has one.
     #[serde(rename = "@scenarios", with = "names")]
     pub scenarios: Vec<String>,
+    /// The frame of `navigation.frame` in which it has one in any mission.
+    #[serde(rename = "@frame", default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<String>,
     /// Why not in the others.
     #[serde(rename = "@why", default)]
     pub why: String,
@@ -119,11 +125,13 @@ impl Filters {
     }
 
     /// Why a filter has no meaning in a scenario; `None` where it has one.
-    pub fn without_meaning(&self, filter: &str, scenario: &str) -> Option<&str> {
-        self.meanings
-            .iter()
-            .find(|only| only.filter == filter && !only.scenarios.iter().any(|name| name == scenario))
-            .map(|only| only.why.as_str())
+    ///
+    /// * `frame`: the mission's `navigation.frame`.
+    pub fn without_meaning(&self, filter: &str, scenario: &str, frame: &str) -> Option<&str> {
+        let has_one =
+            |only: &&Only| only.frame.as_deref() == Some(frame) || only.scenarios.iter().any(|name| name == scenario);
+        let mut told = self.meanings.iter().filter(|only| only.filter == filter);
+        told.find(|only| !has_one(only)).map(|only| only.why.as_str())
     }
 }
 
@@ -228,6 +236,7 @@ mod tests {
             value: value.to_owned(),
         };
         let consistent = Preset {
+            other_reading: false,
             filter: "milton".to_owned(),
             name: "consistent".to_owned(),
             about: "as derived & 'so'".to_owned(),
@@ -268,7 +277,7 @@ mod tests {
             ("milton", "form", None),
         ] {
             assert_eq!(
-                filters.without_meaning(filter, scenario),
+                filters.without_meaning(filter, scenario, "inertial"),
                 expected,
                 "{filter} in {scenario}"
             );

@@ -84,6 +84,15 @@ A mission is one TOML file: a world, what a filter is told of it, and how a stud
 a commented one to start from, `mission check FILE` reads it, flies it without noise and shows what happens, `mission schema` prints
 the JSON schema for editors. A key ends in its unit. Unknown keys are errors, and every problem is named with file, line and column.
 
+Axes N are inertial: about the Earth its mean equator and equinox of date, about the Moon its own equator with x at the node on the
+ICRF equator, about any other body what the file means by them. In the three-body problem they are the rotating ones, from the
+barycentre, x to the smaller body, z along the orbital momentum. RTN: R along the position, N along the angular momentum, T completes;
+LVLH are the same axes, turning with the orbit. `line_of_sight` points body y at the other vehicle, body z along the normal of the
+relative motion (along the orbit's normal where there is none), and body x completes; LiDAR and camera look along body y.
+
+A coefficient file is CSV: lines `mu_m3_s2 = ...` and `radius_m = ...`, the header `degree,order,c,s`, then fully normalised
+coefficients, one row for each degree and order.
+
 This reference is rendered from `crates/interface`; a test holds it to the code. Required keys have no default.
 
 ";

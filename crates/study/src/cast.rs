@@ -117,7 +117,10 @@ impl Models {
             } else {
                 starts.tuned(choice, tuned)?
             };
-            if let Some(why) = model.filters.without_meaning(&choice.name, &world.name) {
+            if let Some(why) = model
+                .filters
+                .without_meaning(&choice.name, &world.name, world.frame.name())
+            {
                 return Err(StudyError::NoMeaning {
                     filter: choice.label.clone(),
                     scenario: world.name.clone(),

@@ -29,6 +29,18 @@ pub enum StudyError {
     /// A mission that cannot be used.
     #[error(transparent)]
     Mission(#[from] interface::MissionError),
+    /// Sensors whose samples lie on no common grid.
+    #[error(
+        "mission {mission}: sensors sample every {} s, which are whole multiples of no millisecond or more in common, so that a \
+         master would lose samples; choose periods that are",
+        periods.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")
+    )]
+    NoGrid {
+        /// Name of the mission.
+        mission: String,
+        /// Of each sensor, s.
+        periods: Vec<f64>,
+    },
     /// The file of a mission that cannot be placed.
     #[error("{}: the mission cannot be written there", path.display())]
     MissionFile {

@@ -144,6 +144,14 @@ impl Innovation {
 }
 
 impl Frame {
+    /// As a mission's `navigation.frame` says it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Inertial => "inertial",
+            Self::Lvlh => "lvlh",
+        }
+    }
+
     /// What truth and filter call the quantities that are compared.
     pub fn signals(self) -> &'static Signals {
         match self {

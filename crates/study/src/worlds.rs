@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use interface::mission::{self, Document, Mission, ResultAxes, embedded};
+use interface::mission::{self, Document, EMBEDDED, Mission, ResultAxes, embedded};
 
 use crate::arguments::{Assignment, FilterChoice};
 use crate::error::StudyError;
@@ -11,12 +11,12 @@ use crate::world::{Axes, Frame, World};
 /// Name under which `--set` addresses the mission itself.
 pub const MISSION: &str = "mission";
 
-/// Every world that the FMUs' `scenario` enumeration knows, in its order.
+/// The world of every mission that comes with the project; those of the FMUs' `scenario` enumeration first, in its order.
 ///
 /// # Errors
 /// None for the missions as they come: a test reads each.
 pub fn all() -> Result<Vec<World>, StudyError> {
-    mission::Embedded::scenarios().map(|entry| find(entry.name)).collect()
+    EMBEDDED.iter().map(|entry| find(entry.name)).collect()
 }
 
 /// The world of this name among the missions that come with the project.
@@ -134,7 +134,10 @@ impl World {
             reference: mission.reference.clone(),
             duration_s: mission.time.duration_s,
             scored_from_s: mission.time.scored_from_s,
-            sample_period_s: grid(&periods(&mission)),
+            sample_period_s: grid(&periods(&mission)).ok_or_else(|| StudyError::NoGrid {
+                mission: mission.name.clone(),
+                periods: periods(&mission),
+            })?,
             frame,
             axes,
             nis_rows: rows.iter().flatten().sum(),
@@ -162,26 +165,22 @@ fn periods(mission: &Mission) -> Vec<f64> {
     .collect()
 }
 
-/// The longest time of which every period is a whole multiple, to a microsecond; the shortest period where there is none.
-fn grid(periods: &[f64]) -> f64 {
-    let ticks: Vec<u64> = periods.iter().map(|p| (p * 1e6).round() as u64).collect();
+/// The longest time of which every period is a whole multiple; `None` where that is below a millisecond, since a master that
+/// steps on a coarser grid would lose samples without a word.
+fn grid(periods: &[f64]) -> Option<f64> {
     let shortest = periods.iter().copied().fold(f64::INFINITY, f64::min);
-    let whole = ticks
+    // An equal or whole period keeps its digits.
+    let whole = |p: &f64| (p / shortest - (p / shortest).round()).abs() < 1e-9;
+    if periods.iter().all(whole) {
+        return Some(shortest);
+    }
+    let ticks: Vec<u64> = periods.iter().map(|p| (p * 1e6).round() as u64).collect();
+    let exact = ticks
         .iter()
         .zip(periods)
         .all(|(t, p)| (*t as f64 / 1e6 - p).abs() < 1e-9);
     let common = ticks.iter().copied().fold(0, gcd);
-    if whole && common >= 1000 {
-        // An equal period keeps its digits.
-        let found = common as f64 / 1e6;
-        if (found - shortest).abs() < 1e-12 {
-            shortest
-        } else {
-            found
-        }
-    } else {
-        shortest
-    }
+    (exact && common >= 1000).then_some(common as f64 / 1e6)
 }
 
 fn gcd(a: u64, b: u64) -> u64 {
@@ -191,7 +190,6 @@ fn gcd(a: u64, b: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use interface::mission::EMBEDDED;
 
     #[test]
     fn every_mission_of_the_project_is_found_by_its_name_and_scores_something() {
@@ -200,9 +198,9 @@ mod tests {
             assert_eq!(world.name, entry.name);
             assert!(world.scored_from_s < world.duration_s, "{}", world.name);
             assert_eq!(world.filters.len(), world.mission.study.filters.len());
-            assert!((world.sample_period_s - 1.0).abs() < 1e-15);
+            assert!(world.sample_period_s > 0.0);
         }
-        assert_eq!(all().unwrap().len(), 3);
+        assert_eq!(all().unwrap().len(), EMBEDDED.len());
         let error = find("leo_vent").unwrap_err().to_string();
         assert!(error.contains("leo_vent") && error.contains("leo_venting"), "{error}");
     }
@@ -215,12 +213,13 @@ mod tests {
             (vec![0.02, 0.2], 0.02),
             (vec![2.0, 3.0], 1.0),
             (vec![1.0 / 3.0], 1.0 / 3.0),
+            (vec![1.0 / 3.0, 1.0], 1.0 / 3.0),
         ] {
-            assert!(
-                (grid(&periods) - expected).abs() < 1e-12,
-                "{periods:?}: {}",
-                grid(&periods)
-            );
+            let found = grid(&periods).unwrap();
+            assert!((found - expected).abs() < 1e-12, "{periods:?}: {found}");
+        }
+        for periods in [vec![0.033_333, 1.0], vec![0.7, 0.0333], vec![1.0, std::f64::consts::PI]] {
+            assert_eq!(grid(&periods), None, "{periods:?}");
         }
     }
 

@@ -104,13 +104,7 @@ pub fn every_filter(models: &Models) -> Vec<FilterChoice> {
     let items = models.nav.iter().flat_map(|nav| nav.description().items("filter"));
     let filters = items.map(|item| item.name.clone());
     let presets = models.nav.iter().flat_map(|nav| &nav.filters.presets);
-    let presets = presets.filter(|p| is_other_reading(p));
+    let presets = presets.filter(|p| p.other_reading);
     let labels = filters.chain(presets.map(|p| format!("{}@{}", p.filter, p.name)));
     labels.filter_map(|label| label.parse().ok()).collect()
-}
-
-/// Whether a preset reads its paper in another way, which is a filter of its own in a search. To be a mark of the preset
-/// in the FMU's annotation; until it is, it is made here.
-fn is_other_reading(preset: &Preset) -> bool {
-    (preset.filter.as_str(), preset.name.as_str()) == ("rbfnn_aekf", "repaired")
 }

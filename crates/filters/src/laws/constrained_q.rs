@@ -102,16 +102,19 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         Preset {
             name: "paper",
             about: "the paper's regression on innovations, and its buffer",
+            other_reading: false,
             sets: &[],
         },
         Preset {
             name: "consistent",
             about: "open-loop residuals, rows divided by their standard deviations",
+            other_reading: false,
             sets: &[("residuals", "consistent"), ("whiten", "true")],
         },
         Preset {
             name: "full",
             about: "as consistent, with a full symmetric density",
+            other_reading: false,
             sets: &[("residuals", "consistent"), ("whiten", "true"), ("shape", "full")],
         },
     ],

@@ -38,6 +38,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     presets: &[Preset {
         name: "paper",
         about: "the mission's own sigma and correlation time",
+        other_reading: false,
         sets: &[],
     }],
     search: &[

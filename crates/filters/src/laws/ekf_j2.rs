@@ -19,6 +19,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     presets: &[Preset {
         name: "paper",
         about: "the Q that fits the paper's Table 3",
+        other_reading: false,
         sets: &[],
     }],
     search: &[step_noise::SEARCH_Q_POSITION, step_noise::SEARCH_Q_VELOCITY],

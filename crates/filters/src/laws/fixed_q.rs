@@ -27,16 +27,19 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         Preset {
             name: "paper",
             about: "the mission's own s; 1e-5 m/s^2.5 in those of the papers",
+            other_reading: false,
             sets: &[],
         },
         Preset {
             name: "small",
             about: "s = 1e-6 m/s^2.5, about the size of the vents",
+            other_reading: false,
             sets: &[("s", "1e-6")],
         },
         Preset {
             name: "slow",
             about: "s = 1e-8 m/s^2.5, for a disturbance that swings by 1e-6 m/s2 within a thousand seconds",
+            other_reading: false,
             sets: &[("s", "1e-8")],
         },
     ],

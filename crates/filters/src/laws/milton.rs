@@ -77,16 +77,19 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         Preset {
             name: "paper",
             about: "as printed, tuned as in Sec. IV",
+            other_reading: false,
             sets: &[],
         },
         Preset {
             name: "consistent",
             about: "open-loop residuals and the linearisation that the derivation implies, tuned as in Sec. IV",
+            other_reading: false,
             sets: &[("residuals", "consistent"), ("linearisation", "consistent")],
         },
         Preset {
             name: "whitened",
             about: "as printed, but with the measured rows divided by their standard deviations",
+            other_reading: false,
             sets: &[("whiten", "true")],
         },
     ],

@@ -41,6 +41,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     presets: &[Preset {
         name: "paper",
         about: "gains that fit the paper's Table 3",
+        other_reading: false,
         sets: &[],
     }],
     search: &[

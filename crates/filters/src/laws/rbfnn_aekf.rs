@@ -65,11 +65,13 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         Preset {
             name: "paper",
             about: "as printed, with the tuning that fits the paper's Tables 2 and 3",
+            other_reading: false,
             sets: &[],
         },
         Preset {
             name: "repaired",
             about: "diagonal adaptation that forgets faster, a wide and slow network without random start",
+            other_reading: true,
             sets: &[
                 ("adaptation", "diagonal"),
                 ("shape", "0.01"),
@@ -81,6 +83,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         Preset {
             name: "fig4",
             about: "as paper, from start weights six orders of magnitude too large, which fade",
+            other_reading: false,
             sets: &[("start_weights", "1"), ("relaxation", "0.98")],
         },
     ],

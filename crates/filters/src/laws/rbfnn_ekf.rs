@@ -23,11 +23,13 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         Preset {
             name: "paper",
             about: "the Q that the adaptive filter starts with, as in the paper",
+            other_reading: false,
             sets: &[],
         },
         Preset {
             name: "light",
             about: "a Q and a slow network as a search finds them for the formation",
+            other_reading: false,
             sets: &[
                 ("q_position", "5e-14"),
                 ("q_velocity", "4e-12"),

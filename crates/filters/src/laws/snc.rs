@@ -26,6 +26,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     presets: &[Preset {
         name: "paper",
         about: "the mission's own q",
+        other_reading: false,
         sets: &[],
     }],
     search: &[

@@ -30,7 +30,7 @@ pub(super) fn findings(mission: &Mission) -> Vec<Finding> {
     let mut c = Check { found: Vec::new() };
     c.head(mission);
     c.time(mission);
-    c.gravity("environment.gravity", &mission.environment.gravity);
+    c.gravity(mission, "environment.gravity", &mission.environment.gravity);
     c.environment(mission);
     c.vehicles(mission);
     c.burns(mission);
@@ -158,7 +158,7 @@ impl Check {
         }
     }
 
-    fn gravity(&mut self, path: &str, gravity: &Gravity) {
+    fn gravity(&mut self, mission: &Mission, path: &str, gravity: &Gravity) {
         match gravity {
             Gravity::TwoBody(g) => {
                 self.hold(format!("{path}.mu_m3_s2"), g.mu_m3_s2, Bound::Positive);
@@ -178,6 +178,10 @@ impl Check {
                         let what =
                             format!("{path}.field = {field:?} is not known: it must be \"egm96_3x3\", or give a file");
                         self.say(format!("{path}.field"), what);
+                    }
+                    (None, Some(file)) if !mission.locate(file).is_file() => {
+                        let what = format!("{path}.file: there is no file {}", mission.locate(file).display());
+                        self.say(format!("{path}.file"), what);
                     }
                     (None, None) | (Some(_), Some(_)) => {
                         self.say(path, format!("{path}: give either field or file"));
@@ -356,9 +360,32 @@ impl Check {
                         path.clone(),
                         format!("{path}.r_m lies below the surface at {radius:.4e} m"),
                     );
+                } else if let (Some(r), Some(v)) = (s.r_m, s.v_m_s) {
+                    self.periapsis(&path, &r, &v, mission);
                 }
             }
             _ => self.say(path.clone(), format!("{path}: give either elements or state")),
+        }
+    }
+
+    /// Refuses a state whose orbit leads below the surface.
+    fn periapsis(&mut self, path: &str, r: &[f64; 3], v: &[f64; 3], mission: &Mission) {
+        let gravity = &mission.environment.gravity;
+        let (Some(mu), Some(radius)) = (gravity.mu_m3_s2(), gravity.radius_m()) else {
+            return;
+        };
+        let dot = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let (rr, vv, rv) = (dot(r, r), dot(v, v), dot(r, v));
+        let momentum = rr * vv - rv * rv;
+        let energy = vv / 2.0 - mu / rr.sqrt();
+        let e = (1.0 + 2.0 * energy * momentum / (mu * mu)).max(0.0).sqrt();
+        let lowest = momentum / mu / (1.0 + e);
+        // An open orbit that leads away never comes to its periapsis.
+        if lowest < radius && (energy < 0.0 || rv < 0.0) {
+            self.say(
+                path,
+                format!("{path}: periapsis at {lowest:.4e} m lies below the surface at {radius:.4e} m"),
+            );
         }
     }
 
@@ -383,6 +410,7 @@ impl Check {
             let path = |key: &str| format!("burn.{name}.{key}");
             self.hold(path("start_s"), burn.start_s, Bound::NonNegative);
             self.hold(path("duration_s"), burn.duration_s, Bound::NonNegative);
+            self.hold(path("acceleration_m_s2"), burn.acceleration_m_s2, Bound::NonNegative);
             self.direction(path("direction"), &burn.direction);
             let end = burn.start_s + burn.duration_s;
             if end > mission.time.duration_s {
@@ -561,6 +589,13 @@ impl Check {
             let Some((period, f)) = sensor else { continue };
             let path = |key: &str| format!("sensors.{name}.{key}");
             self.hold_some(path("period_s"), period, Bound::AtLeast(1e-3));
+            if period.unwrap_or(mission.time.sample_period_s) > mission.time.duration_s {
+                let what = format!(
+                    "sensors.{name} never samples: its period is longer than the run ({} s)",
+                    mission.time.duration_s
+                );
+                self.say(path("period_s"), what);
+            }
             self.hold(path("max_range_m"), f.max_range_m, Bound::Positive);
             self.hold(path("dropout_probability"), f.dropout_probability, Bound::Fraction);
             self.hold(path("outlier_probability"), f.outlier_probability, Bound::Fraction);
@@ -608,7 +643,7 @@ impl Check {
     fn navigation(&mut self, mission: &Mission) {
         let n = &mission.navigation;
         if let Some(gravity) = &n.gravity {
-            self.gravity("navigation.gravity", gravity);
+            self.gravity(mission, "navigation.gravity", gravity);
         }
         let resolved = mission.navigation();
         let cr3bp = mission.environment.gravity.cr3bp().is_some();
@@ -668,6 +703,33 @@ impl Check {
             );
             self.hold_some(format!("{section}.sigma_bias_m_s2"), p0.sigma_bias_m_s2, bound);
         }
+        let b = &n.sensors;
+        for (key, value) in [
+            ("lidar_sigma_range_m", b.lidar_sigma_range_m),
+            ("lidar_sigma_angle_deg", b.lidar_sigma_angle_deg),
+            ("camera_sigma_angle_deg", b.camera_sigma_angle_deg),
+            ("radio_sigma_range_m", b.radio_sigma_range_m),
+            ("radio_sigma_range_rate_m_s", b.radio_sigma_range_rate_m_s),
+            ("metrology_sigma_position_m", b.metrology_sigma_position_m),
+            ("metrology_sigma_velocity_m_s", b.metrology_sigma_velocity_m_s),
+            ("accelerometer_sigma_m_s2", b.accelerometer_sigma_m_s2),
+            (
+                "accelerometer_bias_time_constant_s",
+                b.accelerometer_bias_time_constant_s,
+            ),
+        ] {
+            self.hold_some(format!("navigation.sensors.{key}"), value, Bound::Positive);
+        }
+        self.hold_some(
+            "navigation.sensors.accelerometer_bias_sigma_m_s2",
+            b.accelerometer_bias_sigma_m_s2,
+            Bound::NonNegative,
+        );
+        self.hold_some(
+            "navigation.sensors.accelerometer_gate_m_s2",
+            b.accelerometer_gate_m_s2,
+            Bound::NonNegative,
+        );
         self.hold(
             "navigation.scale.disturbance_m_s2",
             n.scale.disturbance_m_s2,

@@ -14,6 +14,8 @@ pub struct Document {
     origin: String,
     folder: PathBuf,
     text: String,
+    /// Keys that have been set since it was read: places count in the changed text.
+    set: Vec<String>,
 }
 
 impl Document {
@@ -37,6 +39,7 @@ impl Document {
             origin: path.display().to_string(),
             folder,
             text,
+            set: Vec::new(),
         })
     }
 
@@ -49,6 +52,7 @@ impl Document {
             origin: origin.to_owned(),
             folder: PathBuf::new(),
             text: text.to_owned(),
+            set: Vec::new(),
         };
         document.spanned()?;
         Ok(document)
@@ -72,6 +76,7 @@ impl Document {
     /// [`MissionError::Set`] when a table on the way does not exist. Whether the key is a known one shows when the mission is
     /// read.
     pub fn set(&mut self, key: &str, value: &str) -> Result<(), MissionError> {
+        let key = key.trim();
         let refuse = |reason: String| MissionError::Set {
             key: key.to_owned(),
             reason,
@@ -98,6 +103,7 @@ impl Document {
             }
         }
         self.text = document.to_string();
+        self.set.push(key.to_owned());
         Ok(())
     }
 
@@ -151,13 +157,15 @@ impl Document {
         if !not_finite.is_empty() {
             return Err(MissionError::Invalid(not_finite));
         }
-        let mut mission: Mission = toml::from_str(&self.text).map_err(|e| {
-            MissionError::Invalid(vec![
-                self.problem(e.span(), friendlier(e.message(), &self.text, e.span())),
-            ])
-        })?;
+        let mut mission: Mission =
+            toml::from_str(&self.text).map_err(|e| MissionError::Invalid(vec![self.told(&e)]))?;
         mission.folder = self.folder.clone();
-        let findings = check::findings(&mission);
+        let mut findings = Vec::new();
+        // What the file says and the mission does not hold has been passed over: a list where a table belongs, an entry too many.
+        if let (Ok(said), Ok(held)) = (self.text.parse::<toml::Table>(), toml::Table::try_from(&mission)) {
+            passed_over(&said, &held, "", &mut findings);
+        }
+        findings.extend(check::findings(&mission));
         if findings.is_empty() {
             return Ok(mission);
         }
@@ -169,14 +177,40 @@ impl Document {
         ))
     }
 
+    /// What the parser says, at the place of the key that it names.
+    fn told(&self, error: &toml::de::Error) -> Problem {
+        let what = friendlier(error.message(), &self.text, error.span());
+        // A table that is read whole before its kind is known gives its own place for what is wrong inside.
+        let named = error
+            .message()
+            .strip_prefix("unknown field `")
+            .and_then(|rest| rest.split('`').next());
+        let place = error.span().map(|span| {
+            let inside = named.and_then(|key| {
+                let text = self.text.get(span.start..)?;
+                let at = text.match_indices(key).map(|(at, _)| at).find(|at| {
+                    let (before, after) = (text[..*at].chars().next_back(), text[at + key.len()..].trim_start());
+                    after.starts_with('=') && !before.is_some_and(|c| c.is_alphanumeric() || c == '_')
+                })?;
+                Some(span.start + at..span.start + at + key.len())
+            });
+            inside.unwrap_or(span)
+        });
+        self.problem(place, what)
+    }
+
     fn spanned(&self) -> Result<Spanned<&str>, MissionError> {
         Spanned::parse(self.text.as_str())
             .map_err(|e| MissionError::Invalid(vec![self.problem(e.span(), e.message().to_owned())]))
     }
 
     fn problem(&self, span: Option<Range<usize>>, what: String) -> Problem {
+        let origin = match self.set.as_slice() {
+            [] => self.origin.clone(),
+            set => format!("{} with {} set", self.origin, set.join(", ")),
+        };
         Problem {
-            origin: self.origin.clone(),
+            origin,
             place: span.map(|span| place(&self.text, span.start)),
             what,
         }
@@ -284,6 +318,49 @@ fn floats_of(value: &Value, path: &str, each: &mut impl FnMut(&str, f64, Option<
         Value::InlineTable(table) => table
             .iter()
             .for_each(|(key, value)| floats_of(value, &format!("{path}.{key}"), each)),
+        _ => (),
+    }
+}
+
+/// Finds what a table says that another, read from it, does not hold.
+fn passed_over(said: &toml::Table, held: &toml::Table, path: &str, findings: &mut Vec<Finding>) {
+    for (key, value) in said {
+        let path = if path.is_empty() {
+            key.clone()
+        } else {
+            format!("{path}.{key}")
+        };
+        let Some(kept) = held.get(key) else {
+            // An empty list says nothing.
+            if value.as_array().is_none_or(|list| !list.is_empty()) {
+                let what = format!("{path} goes with nothing else here: only one of these may be given");
+                findings.push(Finding { path, what });
+            }
+            continue;
+        };
+        compare(value, kept, path, findings);
+    }
+}
+
+fn compare(said: &toml::Value, held: &toml::Value, path: String, findings: &mut Vec<Finding>) {
+    use toml::Value::{Array, Table};
+    match (said, held) {
+        (Table(said), Table(held)) => passed_over(said, held, &path, findings),
+        (Array(_), Table(_)) => {
+            let what = format!("{path} is a list: a table {{ key = value, ... }} belongs here");
+            findings.push(Finding { path, what });
+        }
+        (Array(said), Array(held)) if said.len() != held.len() => {
+            let what = format!("{path} has {} entries: {} belong here", said.len(), held.len());
+            findings.push(Finding { path, what });
+        }
+        (Array(said), Array(held)) => {
+            for (number, (said, held)) in (1..).zip(said.iter().zip(held)) {
+                let name = said.get("name").and_then(toml::Value::as_str);
+                let entry = name.map_or_else(|| number.to_string(), str::to_owned);
+                compare(said, held, format!("{path}.{entry}"), findings);
+            }
+        }
         _ => (),
     }
 }

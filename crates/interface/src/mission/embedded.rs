@@ -29,6 +29,9 @@ pub const EMBEDDED: &[Embedded] = embedded! {
     "nrho_venting", true;
     "formation", true;
     "formation_j2", false;
+    "lunar_inspection", false;
+    "elliptic_rendezvous", false;
+    "fast_approach", false;
 };
 
 impl Embedded {

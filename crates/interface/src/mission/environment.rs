@@ -173,6 +173,16 @@ impl Gravity {
     pub fn radius_m(&self) -> Option<f64> {
         match self {
             Self::TwoBody(TwoBody { radius_m, .. }) | Self::Zonal(Zonal { radius_m, .. }) => Some(*radius_m),
+            // The one field that has a name is the Earth's.
+            Self::Harmonics(field) => field.field.as_ref().map(|_| 6_378_136.3),
+            Self::Cr3bp(_) => None,
+        }
+    }
+
+    /// Gravitational parameter of the central body, m3/s2, where the file states it.
+    pub fn mu_m3_s2(&self) -> Option<f64> {
+        match self {
+            Self::TwoBody(TwoBody { mu_m3_s2, .. }) | Self::Zonal(Zonal { mu_m3_s2, .. }) => Some(*mu_m3_s2),
             Self::Harmonics(_) | Self::Cr3bp(_) => None,
         }
     }

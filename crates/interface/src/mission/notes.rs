@@ -1,6 +1,6 @@
 //! What a user should know of a mission that is legal and yet asks for trouble.
 
-use super::{AccelerometerOutput, Axes, Mission, Which};
+use super::{AccelerometerOutput, Attitude, Axes, Mission, Which};
 
 /// Times this close are one, s.
 const SAME: f64 = 1e-6;
@@ -37,6 +37,10 @@ impl Mission {
                 .filter(|b| b.vehicle == Which::Chaser && b.duration_s > 0.0)
             {
                 let turns = matches!(burn.axes, Axes::Body | Axes::Rtn);
+                let spin = match self.chaser.attitude {
+                    Attitude::SpinDegS([x, y, z]) => (x * x + y * y + z * z).sqrt(),
+                    _ => 0.0,
+                };
                 if !on_grid(burn.start_s) || !on_grid(burn.start_s + burn.duration_s) {
                     notes.push(format!(
                         "instantaneous accelerometer samples every {held} s are held over the edges of burn {:?} ({} s to {} s): the \
@@ -45,7 +49,7 @@ impl Mission {
                         burn.start_s,
                         burn.start_s + burn.duration_s
                     ));
-                } else if turns && held > 5.0 {
+                } else if turns && (held > 5.0 || spin * held > 0.5) {
                     notes.push(format!(
                         "instantaneous accelerometer samples are held for {held} s while burn {:?} turns with the vehicle; use output = \
                          \"mean\"",

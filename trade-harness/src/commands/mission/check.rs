@@ -10,7 +10,7 @@ use interface::Mission;
 use interface::mission::{First, Gravity, Magnitude, Which, embedded};
 use nalgebra::Vector3;
 use rasciigraph::Config;
-use study::{MISSION, Models, Plan, StudyError, World};
+use study::{MISSION, Models, Plan, StudyError, World, rehearse};
 
 use super::super::shared::{Verdict, models, say, scratch};
 use super::flight::{Flight, Point, SENSORS, fly};
@@ -26,7 +26,21 @@ pub(super) fn check(args: &MissionCheckArgs, out: &mut dyn Write) -> Result<Verd
     let world = only_world(&plan, folder.path())?;
     say(out, &head(&world))?;
     let models = models(&plan, &args.build)?;
+    // What the filters make of it, names of laws above all, is told before anything is flown.
+    rehearse(&models.spec(
+        &Plan {
+            filters: None,
+            ..plan.clone()
+        },
+        &world,
+    )?)?;
     let flight = fly(&models, &plan, &world, args.run)?;
+    if let Some(point) = below_the_surface(&world.mission, &flight) {
+        return Err(HarnessError::BelowSurface { time: point.t });
+    }
+    if flight.seen.values().all(|seen| seen.valid == 0) {
+        return Err(HarnessError::SeesNothing);
+    }
     say(out, &orbits(&world, &flight)?)?;
     say(out, &approach(&flight))?;
     say(out, &events(&world.mission))?;
@@ -48,7 +62,6 @@ fn plan(args: &MissionCheckArgs) -> Result<Plan, HarnessError> {
         scenarios: if known { vec![name.into_owned()] } else { Vec::new() },
         missions: if known { Vec::new() } else { vec![args.mission.clone()] },
         assignments: args.assignments.clone(),
-        filters: Some(Vec::new()),
         seed: args.seed,
         ..Plan::default()
     })
@@ -99,12 +112,25 @@ fn mu(mission: &Mission) -> Result<Option<f64>, HarnessError> {
         Gravity::Zonal(body) => Some(body.mu_m3_s2),
         Gravity::Harmonics(field) => Some(match &field.file {
             None => EGM96.coefficients().mu(),
-            Some(file) => Coefficients::read(&mission.locate(file), Extent::default())
-                .map_err(AstroError::from)?
-                .mu(),
+            Some(file) => {
+                let extent = Extent {
+                    degree: field.degree.map(usize::from),
+                    order: field.order.map(usize::from),
+                };
+                Coefficients::read(&mission.locate(file), extent)
+                    .map_err(AstroError::from)?
+                    .mu()
+            }
         }),
         Gravity::Cr3bp(_) => None,
     })
+}
+
+/// The first point at which a vehicle is inside the central body.
+fn below_the_surface<'a>(mission: &Mission, flight: &'a Flight) -> Option<&'a Point> {
+    let radius = mission.environment.gravity.radius_m()?;
+    let inside = |p: &&Point| p.r_c.norm() < radius || (p.r_c + p.r_tc).norm() < radius;
+    flight.points.iter().find(inside)
 }
 
 /// The orbit of the target at the begin and at the end.
@@ -116,7 +142,7 @@ fn orbits(world: &World, flight: &Flight) -> Result<String, HarnessError> {
         let Some(point) = point else { continue };
         let (r, v) = (point.r_c + point.r_tc, point.v_c + point.v_tc);
         let line = match (mu, &world.mission.environment.gravity) {
-            (Some(mu), gravity) => elements(&r, &v, mu, gravity.radius_m())?,
+            (Some(mu), gravity) => elements(&r, &v, mu, gravity.radius_m()),
             (None, Gravity::Cr3bp(problem)) => {
                 let system = Cr3bpSystem::new(problem.mass_ratio, problem.length_m, problem.time_s)?;
                 let (r, v) = system.about_secondary(&r, &v);
@@ -133,13 +159,20 @@ fn orbits(world: &World, flight: &Flight) -> Result<String, HarnessError> {
     Ok(text)
 }
 
-fn elements(r: &Vector3<f64>, v: &Vector3<f64>, mu: f64, radius: Option<f64>) -> Result<String, HarnessError> {
-    let e = Elements::from_state(r, v, mu)?;
+fn elements(r: &Vector3<f64>, v: &Vector3<f64>, mu: f64, radius: Option<f64>) -> String {
+    let Ok(e) = Elements::from_state(r, v, mu) else {
+        return format!(
+            "no closed orbit: {:.3} km from the centre at {:.3} m/s, of which {:.3} m/s outwards",
+            r.norm() / 1e3,
+            v.norm(),
+            r.dot(v) / r.norm()
+        );
+    };
     let above = |distance: f64| match radius {
         Some(radius) => format!("{:.1} km above the surface", (distance - radius) / 1e3),
         None => format!("{:.1} km from the centre", distance / 1e3),
     };
-    Ok(format!(
+    format!(
         "a {:.3} km, e {:.5}, i {:.3} deg, node {:.3} deg, periapsis argument {:.3} deg, period {:.0} s; lowest {}, highest {}",
         e.a / 1e3,
         e.e,
@@ -149,7 +182,7 @@ fn elements(r: &Vector3<f64>, v: &Vector3<f64>, mu: f64, radius: Option<f64>) ->
         e.period(mu),
         above(e.periapsis_radius()),
         above(e.apoapsis_radius())
-    ))
+    )
 }
 
 fn approach(flight: &Flight) -> String {

@@ -29,7 +29,9 @@ fn new(args: &MissionNewArgs, out: &mut dyn Write) -> Result<Verdict, HarnessErr
         return Err(HarnessError::Exists { path });
     }
     let mut document = interface::mission::Document::parse(from.name, from.text).map_err(StudyError::from)?;
-    document.set("name", &args.name).map_err(StudyError::from)?;
+    document
+        .set("name", &format!("{:?}", args.name))
+        .map_err(StudyError::from)?;
     // A name that none can have is told before anything is written.
     document.mission().map_err(StudyError::from)?;
     prepare_file(&path)?;

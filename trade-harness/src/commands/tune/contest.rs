@@ -72,7 +72,9 @@ impl Contest {
         let mut choices = choices(plan, models);
         if let Some(nav) = &models.nav {
             choices.retain(|choice| {
-                let why = nav.filters.without_meaning(&choice.name, &world.name);
+                let why = nav
+                    .filters
+                    .without_meaning(&choice.name, &world.name, world.frame.name());
                 if let Some(why) = why {
                     note(&format!("note: {} is left out of {}: {why}", choice.label, world.name));
                 }
