@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use interface::annotation::Preset;
 use study::{Assignment, FilterChoice, Models, NAV, PAPER, Participant, Spec, StudyError, TunedSet};
 
 use super::ranges::{Axis, Range, axes};
