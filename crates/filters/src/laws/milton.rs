@@ -190,7 +190,7 @@ impl Milton {
         let Some(factor) = posterior.cholesky() else {
             return Err(failed);
         };
-        self.s = factor.solve(&d);
+        self.s = spd::over(&d.transpose(), factor.l_dirty()).transpose();
         self.information = posterior;
         self.updates += 1;
         Ok(())

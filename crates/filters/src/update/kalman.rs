@@ -90,10 +90,8 @@ pub fn update<const M: usize, const D: usize>(
     let factor = s.cholesky().ok_or(NotSpd {
         min_diagonal: s.diagonal().min(),
     })?;
-    let mut k = factor.solve(&hp).transpose();
-    for row in consider {
-        k.row_mut(row).fill(0.0);
-    }
+    let mut k = spd::over(&hp.transpose(), factor.l_dirty());
+    k.rows_range_mut(consider).fill(0.0);
     est.x += k * m.innovation;
     // (I - K H) P (I - K H)^T + K R K^T as L - (L H^T - K R) K^T with L = (I - K H) P: no full 18^3 product.
     let left = est.p - k * hp;

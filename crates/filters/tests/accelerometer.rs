@@ -1,0 +1,218 @@
+//! Closed loop with an accelerometer that reports means: two bodies, burns that begin and end on any second, a target pushed by
+//! exactly the white acceleration that the filter expects.
+
+#![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
+
+use astro::{TargetOrbit, frames};
+use filters::dynamics::initial_covariance;
+use filters::laws::FILTERS;
+use filters::state::State;
+use filters::tunable::Value;
+use filters::{Navigator, Reading, Sample, Settings, SpecificForce, jerk};
+use interface::Navigation;
+use interface::mission::embedded;
+use nalgebra::{Matrix3, SVector, Vector2, Vector3, Vector6};
+use numerics::{Generator, Source, rk4, stream};
+use rand_distr::{Distribution, StandardNormal};
+
+/// Square root of the target's acceleration density, m/s^1.5.
+const Q: f64 = 3e-5;
+const SIGMA_ACCELEROMETER: f64 = 3.433e-6;
+const BIAS: f64 = 2.943e-6;
+/// First second and length of each burn, s, and its force, N, m/s2.
+const BURNS: [(u32, u32, [f64; 3]); 3] = [
+    (313, 30, [-7e-3, -7e-3, 0.0]),
+    (505, 3, [0.0, 8e-3, 5e-3]),
+    (701, 47, [4e-3, 0.0, -2e-3]),
+];
+
+fn normal(g: &mut Generator) -> f64 {
+    StandardNormal.sample(g)
+}
+
+/// Low Earth orbit, but with a first estimate good enough for angles to be linear at 150 m.
+fn leo() -> Navigation {
+    let mut told = embedded("leo_venting").unwrap().mission().unwrap().navigation();
+    (told.p0.position, told.p0.velocity) = (1.0, 0.02);
+    told
+}
+
+/// Target, then chaser: position and velocity each.
+struct Truth {
+    x: SVector<f64, 12>,
+    second: u32,
+    /// Body-axes specific force summed over seconds since the last reading.
+    felt: Vector3<f64>,
+    seconds: f64,
+    g: Generator,
+}
+
+impl Truth {
+    fn new(run: u64) -> (Self, State) {
+        let mut x = SVector::<f64, 12>::zeros();
+        let r_c = Vector3::new(6.878e6, 0.0, 0.0);
+        let v_c = Vector3::new(0.0, 7350.0, 1970.0);
+        for (slot, part) in [
+            (0, r_c + Vector3::new(80.0, -120.0, 50.0)),
+            (3, v_c + Vector3::new(0.1, 0.3, -0.05)),
+            (6, r_c),
+            (9, v_c),
+        ] {
+            x.fixed_rows_mut::<3>(slot).copy_from(&part);
+        }
+        let mut g = stream(7, run, Source::InitialError);
+        let truth = Self {
+            x,
+            second: 0,
+            felt: Vector3::zeros(),
+            seconds: 0.0,
+            g: stream(7, run, Source::Lidar),
+        };
+        let p0 = initial_covariance(&leo().p0);
+        let error = p0.cholesky().unwrap().unpack() * State::from_fn(|_, _| normal(&mut g));
+        let start = truth.state() + error;
+        (truth, start)
+    }
+
+    fn part(&self, slot: usize) -> Vector3<f64> {
+        self.x.fixed_rows::<3>(slot).into_owned()
+    }
+
+    /// As a filter orders it.
+    fn state(&self) -> State {
+        let mut x = State::zeros();
+        for (slot, part) in [
+            (0, self.part(0) - self.part(6)),
+            (3, self.part(3) - self.part(9)),
+            (9, self.part(6)),
+            (12, self.part(9)),
+            (15, Vector3::repeat(BIAS)),
+        ] {
+            x.fixed_rows_mut::<3>(slot).copy_from(&part);
+        }
+        x
+    }
+
+    fn attitude(&self) -> Matrix3<f64> {
+        let normal = self.part(6).cross(&self.part(9));
+        frames::los_body_axes(&(self.part(0) - self.part(6)), &(self.part(3) - self.part(9)), &normal)
+    }
+
+    /// A second of motion in quarters, so that the turn within it counts.
+    fn step(&mut self) {
+        let burning = |burn: &&(u32, u32, [f64; 3])| (burn.0..burn.0 + burn.1).contains(&self.second);
+        let force: Vector3<f64> = BURNS.iter().filter(burning).map(|burn| Vector3::from(burn.2)).sum();
+        for _ in 0..4 {
+            let before = self.attitude();
+            self.x = rk4::step(0.0, &self.x, 0.25, |_, x| {
+                let mut rate = SVector::<f64, 12>::zeros();
+                for (slot, push) in [(0, Vector3::zeros()), (6, force)] {
+                    let r = x.fixed_rows::<3>(slot).into_owned();
+                    rate.fixed_rows_mut::<3>(slot).copy_from(&x.fixed_rows::<3>(slot + 3));
+                    rate.fixed_rows_mut::<3>(slot + 3)
+                        .copy_from(&(astro::earth::FILTER.acceleration(&r) + push));
+                }
+                rate
+            });
+            self.felt += (before + self.attitude()) * force * 0.125;
+        }
+        let q = jerk::white_acceleration(Q * Q, 1.0)
+            .fixed_view::<6, 6>(0, 0)
+            .into_owned();
+        let pushed = q.cholesky().unwrap().unpack() * Vector6::from_fn(|_, _| normal(&mut self.g));
+        let mut target = self.x.fixed_rows_mut::<6>(0);
+        target += pushed;
+        self.seconds += 1.0;
+        self.second += 1;
+    }
+
+    /// The mean since the last call.
+    fn reading(&mut self) -> SpecificForce {
+        let mean = self.felt / self.seconds;
+        (self.felt, self.seconds) = (Vector3::zeros(), 0.0);
+        let noise = Vector3::from_fn(|_, _| SIGMA_ACCELEROMETER * normal(&mut self.g));
+        SpecificForce::Mean(mean + Vector3::repeat(BIAS) + noise)
+    }
+
+    fn sample(&mut self, count: i32) -> Sample {
+        let dcm_bc_n = self.attitude();
+        let rho = frames::lidar_from_body() * dcm_bc_n * (self.part(0) - self.part(6));
+        let sigma = Vector3::new(0.08, 0.04_f64.to_radians(), 0.04_f64.to_radians());
+        let noise = Vector3::from_fn(|i, _| sigma[i] * normal(&mut self.g));
+        Sample {
+            count,
+            time: f64::from(self.second),
+            lidar: Reading::Seen(sensors::lidar::measure(&rho) + noise),
+            camera: Reading::NotDue,
+            radio: Reading::NotDue,
+            metrology: Reading::NotDue,
+            target_orbit: TargetOrbit::from_vector(&Vector6::zeros()),
+            accelerometer: None,
+            dcm_bc_n,
+        }
+    }
+}
+
+fn tuned() -> Settings {
+    let mut settings = Settings {
+        filter: FILTERS.iter().position(|f| f.name == "snc").unwrap(),
+        ..Settings::default()
+    };
+    *settings.tunable_mut("snc", "q").unwrap() = Value::Real(Q);
+    settings
+}
+
+/// Mean NEES of position and velocity over six, at epochs with a reading: from 100 s on, and in the 40 s after the begin of each
+/// burn.
+fn nees(lidar: u32, accelerometer: u32, runs: u64) -> (f64, f64) {
+    let (mut all, mut near) = (Vector2::zeros(), Vector2::zeros());
+    for run in 0..runs {
+        let (mut truth, start) = Truth::new(run);
+        let mut nav = Navigator::new(&leo(), &tuned(), 0.0).unwrap();
+        let mut count = 0;
+        for second in 1..=900 {
+            truth.step();
+            let reads = second % accelerometer == 0;
+            if second % lidar != 0 && !reads {
+                continue;
+            }
+            count += 1;
+            let mut sample = truth.sample(count);
+            if second % lidar != 0 {
+                sample.lidar = Reading::NotDue;
+            }
+            sample.accelerometer = reads.then(|| truth.reading());
+            nav.process(&sample, &start).unwrap();
+            let error = (nav.estimate().x - truth.state()).fixed_rows::<6>(0).into_owned();
+            let p = nav.estimate().p_target.fixed_view::<6, 6>(0, 0).into_owned();
+            let nees = error.dot(&p.cholesky().unwrap().solve(&error)) / 6.0;
+            if reads && second > 100 {
+                all += Vector2::new(nees, 1.0);
+            }
+            if reads && BURNS.iter().any(|burn| (burn.0..burn.0 + 40).contains(&second)) {
+                near += Vector2::new(nees, 1.0);
+            }
+        }
+    }
+    (all.x / all.y, near.x / near.y)
+}
+
+/// Whatever the period, and wherever in it a burn begins and ends.
+#[test]
+fn mean_readings_keep_the_filter_consistent_at_any_period() {
+    for period in [1, 2, 3, 4, 7, 10, 20] {
+        let (all, near) = nees(period, period, 20);
+        assert!((0.5..1.5).contains(&all), "{period} s: NEES {all}");
+        assert!((0.3..1.7).contains(&near), "{period} s: NEES about the burns {near}");
+    }
+}
+
+#[test]
+fn an_accelerometer_of_another_period_than_the_lidar_is_used_as_well() {
+    for (lidar, accelerometer) in [(1, 2), (1, 5), (2, 3), (5, 1), (10, 3)] {
+        let (all, near) = nees(lidar, accelerometer, 20);
+        let label = format!("LiDAR {lidar} s, accelerometer {accelerometer} s");
+        assert!((0.5..1.5).contains(&all), "{label}: NEES {all}");
+        assert!((0.3..1.7).contains(&near), "{label}: NEES about the burns {near}");
+    }
+}
