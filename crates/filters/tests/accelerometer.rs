@@ -103,7 +103,6 @@ impl Truth {
         let burning = |burn: &&(u32, u32, [f64; 3])| (burn.0..burn.0 + burn.1).contains(&self.second);
         let force: Vector3<f64> = BURNS.iter().filter(burning).map(|burn| Vector3::from(burn.2)).sum();
         for _ in 0..4 {
-            let before = self.attitude();
             self.x = rk4::step(0.0, &self.x, 0.25, |_, x| {
                 let mut rate = SVector::<f64, 12>::zeros();
                 for (slot, push) in [(0, Vector3::zeros()), (6, force)] {
@@ -114,7 +113,7 @@ impl Truth {
                 }
                 rate
             });
-            self.felt += (before + self.attitude()) * force * 0.125;
+            self.felt += force * 0.25;
         }
         let q = jerk::white_acceleration(Q * Q, 1.0)
             .fixed_view::<6, 6>(0, 0)
@@ -126,9 +125,9 @@ impl Truth {
         self.second += 1;
     }
 
-    /// The mean since the last call.
+    /// The mean since the last call, in body axes as they are now.
     fn reading(&mut self) -> SpecificForce {
-        let mean = self.felt / self.seconds;
+        let mean = self.attitude() * self.felt / self.seconds;
         (self.felt, self.seconds) = (Vector3::zeros(), 0.0);
         let noise = Vector3::from_fn(|_, _| SIGMA_ACCELEROMETER * normal(&mut self.g));
         SpecificForce::Mean(mean + Vector3::repeat(BIAS) + noise)
