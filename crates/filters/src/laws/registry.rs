@@ -2,7 +2,6 @@
 
 use super::adaptation::{Adaptation, Setup, Step};
 use super::entry::FilterEntry;
-use super::{constrained_q, dmc, ekf_j2, fixed_q, milton, observer, rbfnn_aekf, rbfnn_ekf, snc};
 use crate::disturbance::Disturbance;
 use crate::dynamics::AccelerationModel;
 use crate::error::FilterError;
@@ -16,15 +15,15 @@ use serde::{Deserialize, Serialize};
 macro_rules! registry {
     ($($variant:ident => $module:ident;)*) => {
         /// Every filter, in the order reports list them.
-        pub const FILTERS: &[FilterEntry] = &[$($module::ENTRY),*];
+        pub const FILTERS: &[FilterEntry] = &[$(super::$module::ENTRY),*];
 
         const LAWS: &[fn(&Setup<'_>) -> Result<Law, FilterError>] =
-            &[$(|setup| Ok(Law::$variant(Box::new($module::$variant::new(setup)?)))),*];
+            &[$(|setup| Ok(Law::$variant(Box::new(super::$module::$variant::new(setup)?)))),*];
 
         /// The law of a running filter.
         #[allow(missing_docs)]
         #[derive(Clone, Debug, Serialize, Deserialize)]
-        pub enum Law { $($variant(Box<$module::$variant>)),* }
+        pub enum Law { $($variant(Box<super::$module::$variant>)),* }
 
         impl Law {
             fn inner(&self) -> &dyn Adaptation {
