@@ -244,7 +244,7 @@ fn mistakes_on_the_command_line_are_told_and_leave_earlier_results_alone() {
         ),
         (&["--set", "fmu-sea.x=1"], &["fmu-sea", "fmu-truth, fmu-nav"]),
         (
-            &["--set", "fmu-truth.lidar.sigma_range=-1"],
+            &["--set", "fmu-truth.lidar.sigma_range=-2"],
             &["fmu-truth", "lidar.sigma_range", "-1", "minimum is 0 m"],
         ),
         (
