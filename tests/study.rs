@@ -233,7 +233,7 @@ fn mistakes_on_the_command_line_are_told_and_leave_earlier_results_alone() {
     std::fs::write(&cut, &bytes[..bytes.len() / 2]).unwrap();
     let cut = format!("x={}", text(&cut));
 
-    let mistakes: [Mistake<'_>; 29] = [
+    let mistakes: [Mistake<'_>; 30] = [
         (
             &["--set", "fmu-truth.lidar.sigma_rnge=1"],
             &["fmu-truth", "lidar.sigma_rnge", "did you mean \"lidar.sigma_range\""],
@@ -244,8 +244,12 @@ fn mistakes_on_the_command_line_are_told_and_leave_earlier_results_alone() {
         ),
         (&["--set", "fmu-sea.x=1"], &["fmu-sea", "fmu-truth, fmu-nav"]),
         (
+            &["--set", "fmu-truth.target_burn.start=-1"],
+            &["fmu-truth", "target_burn.start", "-1", "minimum is 0 s"],
+        ),
+        (
             &["--set", "fmu-truth.lidar.sigma_range=-2"],
-            &["fmu-truth", "lidar.sigma_range", "-1", "minimum is 0 m"],
+            &["fmu-truth", "lidar.sigma_range", "-2", "minimum is -1 m"],
         ),
         (
             &["--set", "fmu-truth.lidar.sigma_range=inf"],

@@ -20,6 +20,9 @@ pub enum StudyError {
     /// A statistic that cannot be formed.
     #[error(transparent)]
     Stats(#[from] StatsError),
+    /// Two bodies that make no sense.
+    #[error(transparent)]
+    Astro(#[from] astro::AstroError),
     /// A flight that left the numbers.
     #[error("the relative position is no number at {time} s")]
     Lost {

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use astro::{Cr3bpSystem, frames};
 use interface::Mission;
 use nalgebra::{Matrix3, Vector3};
 
@@ -54,13 +55,8 @@ pub enum Frame {
 pub enum Axes {
     /// Radial, transverse and normal of the target's orbit about the origin of N, which does not turn.
     Rtn,
-    /// The same about a body on the x axis of axes N that turn about z.
-    RtnRotating {
-        /// The body's place on x, m.
-        body_x_m: f64,
-        /// Time in which axes N turn by one radian, s.
-        time_per_radian_s: f64,
-    },
+    /// The same about the smaller body of the three-body problem, in whose rotating axes the state is given.
+    RtnRotating(Cr3bpSystem),
     /// Those of the variables: LVLH of the target.
     Lvlh,
 }
@@ -165,7 +161,7 @@ impl Axes {
     /// Names for columns.
     pub fn names(self) -> [&'static str; 3] {
         match self {
-            Self::Rtn | Self::RtnRotating { .. } => ["r", "t", "n"],
+            Self::Rtn | Self::RtnRotating(_) => ["r", "t", "n"],
             Self::Lvlh => ["x", "y", "z"],
         }
     }
@@ -180,16 +176,11 @@ impl Axes {
             Self::Lvlh => Some(Matrix3::identity()),
             Self::Rtn => {
                 let (r, v) = target(truth)?;
-                rtn(&r, &v)
+                frames::try_rtn(&r, &v)
             }
-            Self::RtnRotating {
-                body_x_m,
-                time_per_radian_s,
-            } => {
+            Self::RtnRotating(system) => {
                 let (r, v) = target(truth)?;
-                let r = r - Vector3::x() * body_x_m;
-                // The inertial velocity is that in N plus the rotation's.
-                rtn(&r, &(v + Vector3::z().cross(&r) / time_per_radian_s))
+                system.rtn_about_secondary(&r, &v)
             }
         }
     }
@@ -199,17 +190,6 @@ impl Axes {
 fn target(truth: &TruthSample) -> Option<(Vector3<f64>, Vector3<f64>)> {
     let (r_c, v_c) = truth.chaser?;
     Some((r_c + truth.position, v_c + truth.velocity))
-}
-
-fn rtn(r: &Vector3<f64>, v: &Vector3<f64>) -> Option<Matrix3<f64>> {
-    let radial = r.try_normalize(0.0)?;
-    let normal = r.cross(v).try_normalize(0.0)?;
-    let transverse = normal.cross(&radial);
-    Some(Matrix3::from_rows(&[
-        radial.transpose(),
-        transverse.transpose(),
-        normal.transpose(),
-    ]))
 }
 
 #[cfg(test)]
@@ -228,11 +208,9 @@ mod tests {
         assert!((Axes::Rtn.matrix(&truth).unwrap() - Matrix3::identity()).amax() < 1e-15);
         truth.velocity = Vector3::new(0.0, -2.0, 0.0);
         assert!(Axes::Rtn.matrix(&truth).is_none());
-        // At rest in axes that turn, 3 m beside a body at x = 4: it moves along y all the same.
-        let rotating = Axes::RtnRotating {
-            body_x_m: 4.0,
-            time_per_radian_s: 10.0,
-        };
+        // At rest in axes that turn, beside the smaller body on x: it moves along y all the same.
+        let system = Cr3bpSystem::new(0.2, 5.0, 10.0).unwrap();
+        let rotating = Axes::RtnRotating(system);
         assert!((rotating.matrix(&truth).unwrap() - Matrix3::identity()).amax() < 1e-15);
         truth.chaser = None;
         assert!(Axes::Rtn.matrix(&truth).is_none() && rotating.matrix(&truth).is_none());

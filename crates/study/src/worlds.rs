@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use astro::Cr3bpSystem;
 use interface::mission::{self, Document, EMBEDDED, Mission, ResultAxes, embedded};
 
 use crate::arguments::{Assignment, FilterChoice};
@@ -110,10 +111,7 @@ impl World {
         let axes = match (mission.study.axes, frame, mission.environment.gravity.cr3bp()) {
             // The state in LVLH axes is given in them.
             (_, Frame::Lvlh, _) => Axes::Lvlh,
-            (_, Frame::Inertial, Some(problem)) => Axes::RtnRotating {
-                body_x_m: (1.0 - problem.mass_ratio) * problem.length_m,
-                time_per_radian_s: problem.time_s,
-            },
+            (_, Frame::Inertial, Some(p)) => Axes::RtnRotating(Cr3bpSystem::new(p.mass_ratio, p.length_m, p.time_s)?),
             (Some(ResultAxes::Rtn | ResultAxes::Lvlh) | None, Frame::Inertial, None) => Axes::Rtn,
         };
         let rows = [
