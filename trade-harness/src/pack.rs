@@ -95,14 +95,17 @@ pub fn pack(workspace: &Path, folder: &Path, mission: Option<&Path>, quiet: bool
     Ok(packed)
 }
 
+/// Contents by name in the archive.
+type Files = BTreeMap<String, Vec<u8>>;
+
 /// Place, in an FMU, of the mission that it is packed with.
 fn packed_mission() -> String {
     format!("resources/{PACKED}")
 }
 
 /// The missions that come with an FMU, and the one it is packed with, with the files that it names.
-fn resources(mission: Option<&Path>) -> Result<(Option<World>, BTreeMap<String, Vec<u8>>), HarnessError> {
-    let mut files: BTreeMap<String, Vec<u8>> = EMBEDDED
+fn resources(mission: Option<&Path>) -> Result<(Option<World>, Files), HarnessError> {
+    let mut files: Files = EMBEDDED
         .iter()
         .map(|entry| {
             let name = format!("resources/{SHIPPED}/{}.toml", entry.name);
