@@ -87,7 +87,11 @@ fn modules(folder: &Path) -> BTreeMap<Vec<String>, String> {
                 visit(&file, &[path, std::slice::from_ref(&stem)].concat(), found);
             } else if file.extension().is_some_and(|e| e == "rs") {
                 let text = std::fs::read_to_string(&file).unwrap();
-                let code = text.split("#[cfg(test)]").next().unwrap_or_default().to_owned();
+                let code = text
+                    .split("#[cfg(test)]\nmod tests")
+                    .next()
+                    .unwrap_or_default()
+                    .to_owned();
                 let module = match stem.as_str() {
                     "mod" | "lib" | "main" => path.to_vec(),
                     _ => [path, std::slice::from_ref(&stem)].concat(),

@@ -75,7 +75,7 @@ fn study(t: &mut Builder) {
     t.string("mission_file")
         .parameter()
         .start("")
-        .about("path of a mission file, or name of one in the FMU's resources/missions, which then stands for the scenario; empty: none")
+        .about("path of a mission file, or name of a mission that comes with the FMU, which then stands for the scenario; empty: none")
         .rw(|m| m.choice.mission_file.clone(), |m, v| m.choice.mission_file = v);
     t.enumeration("filter", "Filter")
         .parameter()

@@ -47,7 +47,7 @@ fn study(t: &mut Builder) {
     t.string("mission_file")
         .parameter()
         .start("")
-        .about("path of a mission file, which then stands for the scenario; empty: none")
+        .about("path of a mission file, or name of a mission that comes with the FMU, which then stands for the scenario; empty: none")
         .rw(
             |m| m.params.choice.mission_file.clone(),
             |m, v| m.params.choice.mission_file = v,

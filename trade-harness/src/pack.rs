@@ -124,8 +124,10 @@ fn resources(mission: Option<&Path>) -> Result<(Option<World>, Files), HarnessEr
             .file_name()
             .map(|n| n.to_string_lossy().into_owned())
             .unwrap_or_default();
-        files.insert(format!("resources/fields/{name}"), read(&field)?);
-        document.set(key, &format!("\"fields/{name}\"")).map_err(told)?;
+        // The world's field and the filter's may be two files of one name.
+        let name = format!("fields/{}/{name}", key.split('.').next().unwrap_or_default());
+        files.insert(format!("resources/{name}"), read(&field)?);
+        document.set(key, &format!("{name:?}")).map_err(told)?;
     }
     files.insert(packed_mission(), document.text().as_bytes().to_vec());
     Ok((Some(world), files))

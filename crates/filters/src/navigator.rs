@@ -8,7 +8,7 @@ use crate::innovation::Innovation;
 use crate::laws::{Adaptation, FILTERS, FilterEntry, Law, Setup, Step, Update, registry};
 use crate::layout::Layout;
 use crate::sample::Sample;
-use crate::state::{State, TargetMatrix};
+use crate::state::{State, Target, TargetMatrix};
 use crate::tunable::{Tunables, Value};
 use crate::units::Units;
 use interface::Bound::Positive;
@@ -97,6 +97,34 @@ pub struct Navigator {
     estimate: Estimate,
     innovation: Innovation,
     status: Status,
+    /// Epochs at which no sensor of the target was due, since the last at which one was: the law has not heard of them.
+    between: Option<Between>,
+}
+
+/// Epochs of the accelerometer alone, as one: their length, transition and correction of the target's nine states.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Between {
+    dt: f64,
+    f: TargetMatrix,
+    correction: Target,
+}
+
+impl Between {
+    /// What precedes a step, if anything does, and the step, as one.
+    fn with(before: Option<Self>, step: &Step) -> Self {
+        match before {
+            None => Self {
+                dt: step.dt,
+                f: step.f,
+                correction: step.correction,
+            },
+            Some(before) => Self {
+                dt: before.dt + step.dt,
+                f: step.f * before.f,
+                correction: step.f * before.correction + step.correction,
+            },
+        }
+    }
 }
 
 /// Exponential mean of the normalised innovations.
@@ -169,6 +197,7 @@ impl Navigator {
             },
             innovation: Innovation::default(),
             status: Status::Initialising,
+            between: None,
         })
     }
 
@@ -220,7 +249,14 @@ impl Navigator {
         if let Some(defect) = estimator.defect(t_s) {
             return Err(defect);
         }
-        self.law.observe(&step)?;
+        // A law learns from what is measured of the target and of how long it took: a fast accelerometer must not cut that up.
+        let whole = Between::with(self.between.take(), &step);
+        if self.layout.any_due(sample) {
+            (step.dt, step.f, step.correction) = (whole.dt, whole.f, whole.correction);
+            self.law.observe(&step)?;
+        } else {
+            self.between = Some(whole);
+        }
         self.law.look_ahead(&estimator.relative());
         let Reported { x, p_target, sigma } = estimator.report(sample, &self.law);
         self.estimate = Estimate {
@@ -314,6 +350,27 @@ mod tests {
     use super::*;
     use crate::sample::Reading;
     use nalgebra::{Matrix3, Vector3};
+
+    /// Two steps as one move a state, and add to it, as the two do.
+    #[test]
+    fn steps_between_make_one() {
+        let (mut first, mut second) = (
+            Step::blank(0.2, TargetMatrix::identity()),
+            Step::blank(0.3, TargetMatrix::identity()),
+        );
+        for (step, seed) in [(&mut first, 1.0), (&mut second, 5.0)] {
+            for i in 0..9 {
+                step.correction[i] = seed + i as f64;
+                step.f[(i, (i + 3) % 9)] = 0.1 * seed;
+                step.f[(i, (i + 5) % 9)] = -0.3 * seed;
+            }
+        }
+        let both = Between::with(Some(Between::with(None, &first)), &second);
+        let x = Target::from_fn(|i, _| 1.0 - 0.2 * i as f64);
+        let one_by_one = second.f * (first.f * x + first.correction) + second.correction;
+        assert!((both.f * x + both.correction - one_by_one).norm() < 1e-12 * one_by_one.norm());
+        assert!((both.dt - 0.5).abs() < 1e-15);
+    }
 
     /// What a law is handed against the formulas of the update, the inverse formed.
     #[test]

@@ -252,7 +252,7 @@ fn surroundings_that_make_no_sense_are_refused_in_words() {
     let epoch = "epoch_utc = \"2020-01-01T00:00:00\" # the paper prints none\n";
     // (file, what stands there, what takes its place, what the message must hold)
     type Changes<'a> = &'a [(&'a str, &'a str)];
-    let cases: [(&str, Changes<'_>, &str); 13] = [
+    let cases: [(&str, Changes<'_>, &str); 16] = [
         (FORMATION, &[(epoch, "")], "the places of Sun and Moon needs a date"),
         (
             FORMATION,
@@ -323,6 +323,30 @@ fn surroundings_that_make_no_sense_are_refused_in_words() {
             "the Earth's air turns with the Earth",
         ),
         (LEO, &[("grid_s = 1.0", "grid_s = 0.7")], "must be a multiple of it"),
+        (
+            LEO,
+            &[(
+                "[navigation]\ngravity = { model = \"zonal\", mu_m3_s2 = 3.986e14, radius_m = 6.378e6, j = [1.083e-3, -2.532e-6, -1.620e-6] }",
+                "[navigation]\ngravity = { model = \"harmonics\", field = \"egm96_3x3\" }",
+            )],
+            "the turn of the body's axes needs a date",
+        ),
+        (
+            NRHO,
+            &[(
+                "[navigation]",
+                "[navigation]\ngravity = { model = \"cr3bp\", mass_ratio = 1.215e-2, length_m = 3.8e8, time_s = 3.752e5, inertial_angle_at_end_rad = 0.7 }",
+            )],
+            "it must be environment.gravity.length_m = 384400000",
+        ),
+        (
+            FORMATION,
+            &[(
+                "[navigation]",
+                "[[burn]]\nname = \"turn\"\nvehicle = \"chaser\"\ntold = true\nstart_s = 10.0\nduration_s = 5.0\nacceleration_m_s2 = 0.01\naxes = \"n\"\ndirection = [1.0, 0.0, 0.0]\n\n[navigation]",
+            )],
+            "axes of a told burn must be rtn",
+        ),
     ];
     for (file, changes, expected) in cases {
         let mut text = file.to_owned();

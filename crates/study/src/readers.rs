@@ -5,8 +5,9 @@ use nalgebra::{SMatrix, Vector3};
 
 use crate::error::StudyError;
 use crate::participant::Participant;
-use crate::samples::{Estimate, Status, StatusItems, TruthSample};
+use crate::samples::{Estimate, StatusItems, TruthSample};
 use crate::world::{Frame, Innovation, MEASURED};
+use interface::Status;
 
 type VectorHandle = Handle<[f64; 3]>;
 

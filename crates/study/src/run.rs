@@ -9,8 +9,9 @@ use crate::error::{StudyError, chain};
 use crate::history::History;
 use crate::participant::Participant;
 use crate::readers::{EstimateReader, TruthReader};
-use crate::samples::{Estimate, Status, TruthSample};
+use crate::samples::{Estimate, TruthSample};
 use crate::spec::{SAME_TIME, Spec};
+use interface::Status;
 
 /// Why a filter has no result in a run.
 #[derive(Debug, Clone, PartialEq)]

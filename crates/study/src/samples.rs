@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use interface::Status;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 /// True state at the epoch of one sensor sample, in the axes of the truth's variables, SI.
@@ -94,43 +95,6 @@ fn first_not_finite(parts: [(&'static str, Option<Vector3<f64>>); 4]) -> Option<
         .find_map(|(name, v)| v?.iter().copied().find(|x| !x.is_finite()).map(|x| (name, x)))
 }
 
-/// What a filter says of itself: the items of the `status` enumeration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Status {
-    /// No estimate yet.
-    Initialising,
-    /// Measurements are used.
-    Tracking,
-    /// The sample held no measurement.
-    Coasting,
-    /// The filter has given up.
-    Diverged,
-    /// No new sample for some periods.
-    Stale,
-}
-
-impl Status {
-    /// All of them, in the order of the enumeration of our own filters.
-    pub const ALL: [Self; 5] = [
-        Self::Initialising,
-        Self::Tracking,
-        Self::Coasting,
-        Self::Diverged,
-        Self::Stale,
-    ];
-
-    /// Name of the item.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Initialising => "initialising",
-            Self::Tracking => "tracking",
-            Self::Coasting => "coasting",
-            Self::Diverged => "diverged",
-            Self::Stale => "stale",
-        }
-    }
-}
-
 /// Which number a filter gives each [`Status`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct StatusItems(BTreeMap<i32, Status>);
@@ -138,10 +102,7 @@ pub struct StatusItems(BTreeMap<i32, Status>);
 impl StatusItems {
     /// Those of an enumeration, by the names of its items; other names mean nothing here.
     pub fn named<'a>(items: impl IntoIterator<Item = (&'a str, i32)>) -> Self {
-        let known = |(name, number)| {
-            let status = Status::ALL.into_iter().find(|s| s.name() == name)?;
-            Some((number, status))
-        };
+        let known = |(name, number)| Some((number, Status::named(name)?));
         Self(items.into_iter().filter_map(known).collect())
     }
 
@@ -154,7 +115,12 @@ impl StatusItems {
 /// Those of a plain Integer: counted from 1 in the order of [`Status::ALL`].
 impl Default for StatusItems {
     fn default() -> Self {
-        Self((1..).zip(Status::ALL).collect())
+        Self(
+            Status::ALL
+                .iter()
+                .map(|(status, ..)| (status.number(), *status))
+                .collect(),
+        )
     }
 }
 

@@ -4,8 +4,9 @@ use nalgebra::{SMatrix, SVector, Vector3};
 use stats::nees;
 
 use crate::record::{Quantity, Record};
-use crate::samples::{Estimate, Status, TruthSample};
+use crate::samples::{Estimate, TruthSample};
 use crate::world::World;
+use interface::Status;
 
 /// Position error, m, below which a filter is never called diverged.
 const LOST_BEYOND: f64 = 100.0;

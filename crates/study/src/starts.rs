@@ -39,12 +39,21 @@ impl<'a> StartValues<'a> {
     }
 
     /// A foreign FMU without the parameters knows one world only.
+    ///
+    /// A world is named twice where it can be: to an FMU that was packed with a mission, the first scenario is that mission.
     pub(crate) fn world(mut self, world: &World) -> Result<Self, StudyError> {
         let has = |name| self.model.description().get(name).is_some();
         match &world.mission_file {
             Some(path) if has("mission_file") => self.set("mission_file", &path.display().to_string())?,
-            None if has("scenario") => self.set("scenario", &world.name)?,
-            _ => {}
+            Some(_) => {}
+            None => {
+                if has("scenario") {
+                    self.set("scenario", &world.name)?;
+                }
+                if has("mission_file") {
+                    self.set("mission_file", &world.name)?;
+                }
+            }
         }
         Ok(self)
     }

@@ -355,7 +355,7 @@ fn status_is_matched_by_name() {
         .cast(&worlds::find("leo_venting").unwrap(), &ours, &[], &[])
         .unwrap();
     let found = |index: usize| [1, 2, 3, 4, 5].map(|n| filters[index].statuses.status(n));
-    assert_eq!(found(0), Status::ALL.map(Some));
+    assert_eq!(found(0), Status::ALL.map(|(status, ..)| Some(status)));
     assert_eq!(
         found(1),
         [Some(Status::Diverged), None, Some(Status::Tracking), None, None]

@@ -117,8 +117,7 @@ impl Params {
                 .burns
                 .retain(|burn| burn.vehicle == interface::mission::Which::Target);
         }
-        if self.formation_forces == Forces::J2 && self.choice.mission_file.is_empty() && run.mission.name == "formation"
-        {
+        if self.formation_forces == Forces::J2 && run.mission.name == "formation" {
             run.mission.environment = embedded("formation_j2")?.mission()?.environment;
         }
         for (row, values) in PARAMETERS.iter().zip(&self.values) {

@@ -25,6 +25,8 @@ pub(super) struct Accelerometer {
 struct Mean {
     /// Epoch of the newest, s.
     last_s: Option<f64>,
+    /// Shortest time between two.
+    shortest: Option<f64>,
     /// Its acceleration, axes N; zero below the gate.
     drive_n: Vector3<f64>,
     /// By how much it differs from the one before.
@@ -96,6 +98,10 @@ impl Accelerometer {
     /// Where other sensors sample in between, T is longer than the gap: the last mean is held meanwhile, its effect made
     /// uncertain, and what it credited too little or too much is made good in the gap at whose end the reading comes.
     ///
+    /// Where samples were lost, T is longer than the period P that the reading is the mean of, which is taken to be the
+    /// shortest T so far; nothing is known of the other T - P. The reading stands for all of T, and the velocity's covariance gains (T - P) |a - a'| / sqrt 3, with |a|
+    /// where that is larger.
+    ///
     /// * `bias`: the estimated one.
     pub(super) fn over(&mut self, gap: &Gap, sample: &Sample, bias: &Vector3<f64>) -> Driven {
         let dt = gap.length_s / self.units.time;
@@ -106,7 +112,7 @@ impl Accelerometer {
             .accelerometer
             .as_ref()
             .map_or_else(Default::default, |f| self.reading(f));
-        let interval = (sample.time - self.mean.last_s.unwrap_or(gap.from_s)) / self.units.time;
+        let interval = (sample.time - self.mean.last_s.unwrap_or(gap.start_s)) / self.units.time;
         let dcm_n_bc = sample.dcm_bc_n.transpose();
         let drive_n = if drives {
             dcm_n_bc * (alpha - bias)
@@ -120,13 +126,20 @@ impl Accelerometer {
             Vector3::zeros()
         };
         let change_n = drive_n - self.mean.drive_n;
-        let unsure_n = if change_n.norm() >= self.mean.change_n.norm() {
-            change_n
+        let period = self.mean.shortest.map_or(interval, |shortest| shortest.min(interval));
+        let unseen = if interval > 1.5 * period {
+            interval - period
         } else {
-            self.mean.change_n
+            0.0
         };
+        let mut unsure_n = larger(change_n, self.mean.change_n);
+        if unseen > 0.0 {
+            unsure_n = larger(unsure_n, drive_n);
+        }
+        let unseen_n = unsure_n * if late_n.dot(&unsure_n) < 0.0 { -unseen } else { unseen };
         self.mean = Mean {
             last_s: Some(sample.time),
+            shortest: Some(period),
             drive_n,
             change_n,
             credited_n: Vector3::zeros(),
@@ -135,7 +148,7 @@ impl Accelerometer {
             alpha_c_bc: alpha,
             dcm_n_bc,
         });
-        if !drives && late_n == Vector3::zeros() {
+        if !drives && late_n == Vector3::zeros() && unseen_n == Vector3::zeros() {
             return Driven::default();
         }
         let root3 = 3.0_f64.sqrt();
@@ -146,7 +159,7 @@ impl Accelerometer {
             }),
             blur: Some(Blur {
                 position_n: unsure_n * (interval * interval / (2.0 * root3)),
-                velocity_n: late_n / root3,
+                velocity_n: (late_n + unseen_n) / root3,
                 acceleration: self.sigma,
                 interval,
             }),
@@ -182,4 +195,9 @@ impl Accelerometer {
             });
         }
     }
+}
+
+/// The first unless the second is longer.
+fn larger(first: Vector3<f64>, second: Vector3<f64>) -> Vector3<f64> {
+    if first.norm() >= second.norm() { first } else { second }
 }

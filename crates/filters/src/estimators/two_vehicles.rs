@@ -259,6 +259,9 @@ fn update<const M: usize>(core: &mut Gaussian, stack: &Stack, step: &mut Step) -
     Ok(nis)
 }
 
+/// Every number of rows has its update: those of the sensors, and three of the accelerometer's bias.
+const _: () = assert!(MAX_ROWS + 3 == 16);
+
 /// Calls [`update`] with as many rows as a stack has.
 macro_rules! update_rows {
     ($core:expr, $stack:expr, $step:expr; $($rows:literal)*) => {
@@ -354,7 +357,7 @@ impl Estimator for InertialState {
         let Some(core) = &mut self.core else { return Ok(None) };
         step.p_prior.copy_from(&core.p.fixed_view::<9, 9>(0, 0));
         let nis =
-            update_rows!(core, stack, step; 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16).map_err(|e| e.at(sample.time))?;
+            update_rows!(core, stack, step; 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16).map_err(|e| e.at(sample.time))?;
         for (row, place) in stack.places[..stack.target_rows].iter().enumerate() {
             step.measured.mark(*place..place + 1);
             step.innovation[*place] = stack.innovation[row];

@@ -20,6 +20,7 @@ fn low_orbit(sensors: &str, navigation: &str) -> Navigation {
 mission = 1
 name = "test"
 [time]
+epoch_utc = "2020-01-01T00:00:00"
 duration_s = 900.0
 [environment]
 gravity = {{ model = "zonal", mu_m3_s2 = 3.986e14, radius_m = 6.378e6, j = [1.083e-3, -2.532e-6, -1.620e-6] }}
@@ -230,11 +231,10 @@ fn due_and_lost_is_a_dropout_and_not_due_is_none() {
 /// The field of harmonics with its turning: a filter told of it is consistent over half an orbit's worth of its pull.
 #[test]
 fn harmonics_are_in_the_filters_gravity() {
-    let mut told = low_orbit(
+    let told = low_orbit(
         "[sensors.lidar]",
         "chaser_q_c_m2_s3 = 1e-14\ngravity = { model = \"harmonics\", field = \"egm96_3x3\" }",
     );
-    told.epoch_utc = Some("2020-01-01T00:00:00".into());
     let epoch = astro::epoch::julian_date("2020-01-01T00:00:00").unwrap();
     let earth = astro::CentralBody::new("earth", epoch).unwrap();
     let field = astro::SphericalHarmonics::new(astro::harmonics::EGM96.coefficients());

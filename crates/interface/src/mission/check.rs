@@ -143,10 +143,7 @@ impl Check {
         let reasons = [
             (!environment.third_bodies.is_empty(), "the places of Sun and Moon"),
             (environment.radiation.is_some(), "the place of the Sun"),
-            (
-                matches!(environment.gravity, Gravity::Harmonics(_)) && turns_as_body,
-                "the turn of the body's axes",
-            ),
+            (turns_with_body(mission) && turns_as_body, "the turn of the body's axes"),
             (
                 environment.drag.is_some() && turns_as_body && body != Body::Earth,
                 "the turn of the air",
@@ -246,8 +243,7 @@ impl Check {
             let what = format!("environment.third_bodies: {twice:?} is named twice");
             self.say("environment.third_bodies", what);
         }
-        let harmonics = matches!(environment.gravity, Gravity::Harmonics(_));
-        if harmonics && environment.body == Body::Other && environment.rotation.is_none() {
+        if turns_with_body(mission) && environment.body == Body::Other && environment.rotation.is_none() {
             self.say(
                 "environment.gravity",
                 "environment.rotation is missing: nothing is known of how the axes of body = \"other\" turn, as { rate_deg_s = 0.004 }",
@@ -420,7 +416,15 @@ impl Check {
                 );
                 self.say(path("start_s"), what);
             }
-            if burn.told && burn.vehicle == Which::Chaser && accelerometer {
+            let lvlh = mission.navigation.frame == Frame::Lvlh;
+            if lvlh && burn.told && burn.axes != Axes::Rtn {
+                let what = format!(
+                    "burn {name:?}: a filter with navigation.frame = \"lvlh\" knows the axes of the orbit alone, so axes of a told \
+                     burn must be rtn"
+                );
+                self.say(path("axes"), what);
+            }
+            if burn.told && burn.vehicle == Which::Chaser && accelerometer && !lvlh {
                 self.say(
                     path("told"),
                     format!("burn {name:?}: the accelerometer tells the filter already; told must be false"),
@@ -653,6 +657,20 @@ impl Check {
                 "navigation.gravity: world and filter must both be in cr3bp's rotating axes, or neither",
             );
         }
+        if let (Some(world), Some(filter)) = (mission.environment.gravity.cr3bp(), resolved.gravity.cr3bp()) {
+            for (key, world, filter) in [
+                ("length_m", world.length_m, filter.length_m),
+                ("time_s", world.time_s, filter.time_s),
+            ] {
+                if (world - filter).abs() > 1e-12 * world {
+                    let path = format!("navigation.gravity.{key}");
+                    let what = format!(
+                        "{path} = {filter}: it must be environment.gravity.{key} = {world}; both sides share the rotating axes"
+                    );
+                    self.say(path, what);
+                }
+            }
+        }
         if n.units == UnitsChoice::Cr3bp && !cr3bp {
             self.say(
                 "navigation.units",
@@ -758,6 +776,12 @@ impl Check {
             }
         }
     }
+}
+
+/// Whether a gravity turns with the body's axes: the world's or the one that the filter knows.
+fn turns_with_body(mission: &Mission) -> bool {
+    let harmonic = |gravity: &Gravity| matches!(gravity, Gravity::Harmonics(_));
+    harmonic(&mission.environment.gravity) || mission.navigation.gravity.as_ref().is_some_and(harmonic)
 }
 
 /// What is wrong with a date, if something is.

@@ -17,7 +17,7 @@ pub const SHIPPED: &str = "missions";
 pub struct Choice {
     /// Item of the `scenario` enumeration, counted from 1.
     pub scenario: i32,
-    /// Path of a mission file, or the name of one in the resources' `missions`; empty: none.
+    /// Path of a mission file, or the name, with or without `.toml`, of one that comes with the project; empty: none.
     pub mission_file: String,
     /// The FMU's resources, where there are any.
     pub resources: Option<PathBuf>,
@@ -43,9 +43,20 @@ impl Choice {
         if !self.mission_file.is_empty() {
             let path = Path::new(&self.mission_file);
             let shipped = self.resources.as_ref().map(|folder| folder.join(SHIPPED).join(path));
-            return match shipped.filter(|shipped| !path.exists() && shipped.is_file()) {
-                Some(shipped) => Mission::read(&shipped),
-                None => Mission::read(path),
+            // A bare name means ours whatever lies about in the present folder.
+            if let Ok(entry) = super::embedded(&self.mission_file) {
+                return entry.mission();
+            }
+            if path.is_file() {
+                return Mission::read(path);
+            }
+            if let Some(shipped) = shipped.filter(|shipped| shipped.is_file()) {
+                return Mission::read(&shipped);
+            }
+            let name = self.mission_file.strip_suffix(".toml").unwrap_or(&self.mission_file);
+            return match super::embedded(name) {
+                Ok(entry) => entry.mission(),
+                Err(_) => Mission::read(path),
             };
         }
         if let Some(packed) = self
@@ -127,6 +138,10 @@ mod tests {
         assert_eq!(name(2, "", all).unwrap(), "nrho_venting");
         assert_eq!(name(1, "other.toml", all).unwrap(), "other");
         assert!(name(1, "other.toml", None).is_err());
+        // A scenario goes by its name too, packed or not.
+        for file in ["leo_venting", "leo_venting.toml"] {
+            assert_eq!(name(1, file, all).unwrap(), "leo_venting");
+        }
         let error = name(9, "", None).unwrap_err().to_string();
         assert!(error.contains('9') && error.contains("1 (leo_venting)"), "{error}");
     }
