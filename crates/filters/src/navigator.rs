@@ -251,7 +251,8 @@ impl Navigator {
         }
         // A law learns from what is measured of the target and of how long it took: a fast accelerometer must not cut that up.
         let whole = Between::with(self.between.take(), &step);
-        if self.layout.any_due(sample) {
+        let due = self.layout.any_due(sample);
+        if due {
             (step.dt, step.f, step.correction) = (whole.dt, whole.f, whole.correction);
             self.law.observe(&step)?;
         } else {
@@ -266,14 +267,14 @@ impl Navigator {
             p_target,
             sigma,
         };
-        self.judge(sample, seen);
+        self.judge(due, seen);
         Ok(())
     }
 
     /// Keeps the innovation and says what the filter is doing. An epoch at which no sensor of the target samples says nothing.
-    fn judge(&mut self, sample: &Sample, seen: Option<Innovation>) {
+    fn judge(&mut self, due: bool, seen: Option<Innovation>) {
         let Some(seen) = seen else {
-            if self.layout.any_due(sample) {
+            if due {
                 self.status = Status::Coasting;
             }
             return;

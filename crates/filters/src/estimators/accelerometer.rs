@@ -105,13 +105,10 @@ impl Accelerometer {
     /// * `bias`: the estimated one.
     pub(super) fn over(&mut self, gap: &Gap, sample: &Sample, bias: &Vector3<f64>) -> Driven {
         let dt = gap.length_s / self.units.time;
-        let Some(SpecificForce::Mean(_)) = sample.accelerometer else {
+        let Some(force @ SpecificForce::Mean(_)) = &sample.accelerometer else {
             return self.held_over(dt, bias);
         };
-        let (alpha, drives) = sample
-            .accelerometer
-            .as_ref()
-            .map_or_else(Default::default, |f| self.reading(f));
+        let (alpha, drives) = self.reading(force);
         let interval = (sample.time - self.mean.last_s.unwrap_or(gap.start_s)) / self.units.time;
         let dcm_n_bc = sample.dcm_bc_n.transpose();
         let drive_n = if drives {
