@@ -256,7 +256,7 @@ fn arrows_between_crates_go_one_way() {
         ("interface", &[]),
         ("numerics", &[]),
         ("astro", &["numerics"]),
-        ("sensors", &["numerics", "astro"]),
+        ("sensors", &["interface", "numerics", "astro"]),
         ("truth", &["interface", "numerics", "astro", "sensors"]),
         ("filters", &["interface", "numerics", "astro", "sensors"]),
         ("stats", &["numerics"]),

@@ -7,8 +7,8 @@ use filters::state::State;
 use filters::{Navigator, Sample, Settings};
 use fmi2_export::{Experiment, Log, Model, ModelError, ModelInfo, Table, VendorAnnotation};
 use interface::annotation::{self, Filters, Only, Preset, Search, Set};
-use interface::mission::{Choice, Embedded, Frame, packed_guid};
-use interface::{Signals, Status};
+use interface::mission::{Choice, Embedded, packed_guid};
+use interface::{Sensor, Signals, Status};
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -78,10 +78,9 @@ impl Model for NavModel {
         let now = navigator.status();
         if now != before {
             log.event(format_args!("at t = {} s: {}", inputs.sample_time, now.name()));
-            let other = match navigator.frame() {
-                Frame::Inertial => inputs.metrology.valid,
-                Frame::Lvlh => inputs.lidar.valid || inputs.camera.valid || inputs.radio.valid,
-            };
+            let other = Sensor::ALL
+                .into_iter()
+                .any(|sensor| inputs[sensor].valid && !navigator.uses(sensor));
             if now == Status::Coasting && other {
                 log.event(format_args!(
                     "the sample holds a measurement that this mission does not use: does the world fly the same mission?"

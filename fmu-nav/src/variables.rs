@@ -6,11 +6,11 @@
 use crate::beliefs::{BELIEFS, Belief, Place};
 use crate::slave::NavModel;
 use filters::laws::FILTERS;
-use filters::tunable::{Kind, Tunable, Value};
-use filters::{Beliefs, Navigator, Sensor};
+use filters::tunable::{self, Tunable, Value};
+use filters::{Beliefs, Navigator};
 use fmi2_export::{Real, Row, Table, TableBuilder};
 use interface::mission::{Embedded, Frame};
-use interface::ports::{Port, Role, Shape, of};
+use interface::ports::{Kind, Part, Port, Role, Shape, of};
 use interface::signals::{Slot, slots};
 use interface::{Bound, Signals, Status};
 
@@ -52,7 +52,7 @@ fn types(t: &mut Builder) {
     );
     let mut known = Vec::new();
     for tunable in FILTERS.iter().flat_map(|f| f.tunables) {
-        if let Kind::Choice { type_name, items } = tunable.kind
+        if let tunable::Kind::Choice { type_name, items } = tunable.kind
             && !known.contains(&type_name)
         {
             known.push(type_name);
@@ -190,11 +190,11 @@ macro_rules! stored {
 fn tunable_row(t: &mut Builder, filter: &str, tunable: &Tunable, f: usize, i: usize) {
     let name = format!("{filter}.{}", tunable.name);
     match tunable.kind {
-        Kind::Real { start, unit, bound } => {
+        tunable::Kind::Real { start, unit, bound } => {
             let (get, set) = stored!(f, i, Real, 0.0);
             real_parameter(t, &name, unit, bound, start.fixed(), tunable.about).rw(get, set);
         }
-        Kind::Integer { start, min, max } => {
+        tunable::Kind::Integer { start, min, max } => {
             let (get, set) = stored!(f, i, Integer, 0);
             t.integer(name)
                 .parameter()
@@ -204,7 +204,7 @@ fn tunable_row(t: &mut Builder, filter: &str, tunable: &Tunable, f: usize, i: us
                 .about(tunable.about)
                 .rw(get, set);
         }
-        Kind::Boolean { start } => {
+        tunable::Kind::Boolean { start } => {
             let (get, set) = stored!(f, i, Boolean, false);
             t.boolean(name)
                 .parameter()
@@ -212,7 +212,7 @@ fn tunable_row(t: &mut Builder, filter: &str, tunable: &Tunable, f: usize, i: us
                 .about(tunable.about)
                 .rw(get, set);
         }
-        Kind::Choice { type_name, .. } => {
+        tunable::Kind::Choice { type_name, .. } => {
             let (get, set) = stored!(f, i, Choice, 0);
             t.enumeration(name, type_name)
                 .parameter()
@@ -234,35 +234,30 @@ fn with_unit<'t>(row: Row<'t, NavModel, Real>, port: &'static Port) -> Row<'t, N
 
 /// An input, which starts at what a truth means that does not know of it.
 fn input_row(t: &mut Builder, port: &'static Port, slot: Slot) {
-    match slot {
-        Slot::Integer(get, set) => t
-            .integer(port.name)
-            .input()
-            .start(get(&Signals::default()))
-            .about(port.about(0))
-            .rw(move |m| get(&m.inputs), move |m, v| set(&mut m.inputs, v)),
-        Slot::Boolean(get, set) => t
-            .boolean(port.name)
-            .input()
-            .start(get(&Signals::default()))
-            .about(port.about(0))
-            .rw(move |m| get(&m.inputs), move |m, v| set(&mut m.inputs, v)),
-        Slot::Real(get, get_mut) => {
-            let row = with_unit(t.real(port.name).input().discrete(), port)
-                .start_by(move |i| get(&Signals::default())[i])
+    let (name, about, start) = (port.name, port.about(0), Signals::default());
+    match port.kind {
+        Kind::Integer => t.integer(name).input().start(slot.integer(&start)).about(about).rw(
+            move |m| slot.integer(&m.inputs),
+            move |m, v| slot.set_integer(&mut m.inputs, v),
+        ),
+        Kind::Boolean => t.boolean(name).input().start(slot.boolean(&start)).about(about).rw(
+            move |m| slot.boolean(&m.inputs),
+            move |m, v| slot.set_boolean(&mut m.inputs, v),
+        ),
+        _ => {
+            let row = with_unit(t.real(name).input().discrete(), port)
+                .start_by(move |i| slot.reals(&start)[i])
                 .about_by(|i| port.about(i).to_owned());
+            let get = move |m: &NavModel, i: usize| slot.reals(&m.inputs)[i];
+            let set = move |m: &mut NavModel, i: usize, v| slot.reals_mut(&mut m.inputs)[i] = v;
             match port.shape {
-                Shape::Scalar => row.rw(move |m| get(&m.inputs)[0], move |m, v| get_mut(&mut m.inputs)[0] = v),
-                Shape::Vector(n) => row.vector_rw(
-                    n,
-                    move |m, i| get(&m.inputs)[i],
-                    move |m, i, v| get_mut(&mut m.inputs)[i] = v,
-                ),
+                Shape::Scalar => row.rw(move |m| get(m, 0), move |m, v| set(m, 0, v)),
+                Shape::Vector(n) => row.vector_rw(n, get, set),
                 Shape::Matrix(rows, columns) => row.matrix_rw(
                     rows,
                     columns,
-                    move |m, i, j| get(&m.inputs)[columns * i + j],
-                    move |m, i, j, v| get_mut(&mut m.inputs)[columns * i + j] = v,
+                    move |m, i, j| get(m, columns * i + j),
+                    move |m, i, j, v| set(m, columns * i + j, v),
                 ),
             }
         }
@@ -274,6 +269,10 @@ enum Shown {
     Real(fn(&Navigator, usize) -> f64),
     Integer(fn(&Navigator) -> i32),
     Boolean(fn(&Navigator) -> bool),
+    /// Measured minus predicted, from this place of an innovation on.
+    Innovation(usize),
+    /// Predicted variance, likewise.
+    Variance(usize),
     /// The status, which has a value before the filter runs.
     Status,
 }
@@ -284,8 +283,12 @@ fn estimates() -> impl Iterator<Item = (&'static Port, Shown)> {
 }
 
 fn shown(port: &Port) -> Option<Shown> {
-    use Sensor::{Camera, Lidar, Metrology, Radio};
     use Shown::{Boolean, Integer, Real, Status};
+    match port.part {
+        Some((sensor, Part::Innovation(first))) => return Some(Shown::Innovation(sensor.channels().start + first)),
+        Some((sensor, Part::Variance(first))) => return Some(Shown::Variance(sensor.channels().start + first)),
+        _ => (),
+    }
     Some(match port.name {
         "est.time" => Real(|n, _| n.estimate().time),
         "est.count" => Integer(|n| n.estimate().count),
@@ -316,25 +319,8 @@ fn shown(port: &Port) -> Option<Shown> {
         "status" => Status,
         "cov.sigma" => Real(|n, i| n.estimate().sigma[i]),
         "cov.p" => Real(|n, i| n.estimate().p_target[(i / 9, i % 9)]),
-        "innov.range" => Real(|n, _| n.innovation().residual[channel(Lidar)]),
-        "innov.azimuth" => Real(|n, _| n.innovation().residual[channel(Lidar) + 1]),
-        "innov.elevation" => Real(|n, _| n.innovation().residual[channel(Lidar) + 2]),
-        "innov.s" => Real(|n, i| n.innovation().variance[channel(Lidar) + i]),
-        "innov.rho" => Real(|n, i| n.innovation().residual[channel(Metrology) + i]),
-        "innov.rho_s" => Real(|n, i| n.innovation().variance[channel(Metrology) + i]),
-        "innov.rho_dot" => Real(|n, i| n.innovation().residual[channel(Metrology) + 3 + i]),
-        "innov.rho_dot_s" => Real(|n, i| n.innovation().variance[channel(Metrology) + 3 + i]),
-        "innov.camera" => Real(|n, i| n.innovation().residual[channel(Camera) + i]),
-        "innov.camera_s" => Real(|n, i| n.innovation().variance[channel(Camera) + i]),
-        "innov.radio" => Real(|n, i| n.innovation().residual[channel(Radio) + i]),
-        "innov.radio_s" => Real(|n, i| n.innovation().variance[channel(Radio) + i]),
         _ => return None,
     })
-}
-
-/// First place of a sensor in an innovation.
-fn channel(sensor: Sensor) -> usize {
-    sensor.channels().start
 }
 
 /// `value` of a filter whose state stands in axes N, else 0.
@@ -361,17 +347,25 @@ fn estimate_row(t: &mut Builder, port: &'static Port, shown: Shown) {
             .output()
             .about(about)
             .get(|m| m.status().number()),
-        Shown::Real(get) => {
-            let row = with_unit(t.real(name).discrete(), port).about_by(|i| port.about(i).to_owned());
-            match port.shape {
-                Shape::Scalar => row.output().get(move |m| m.read(|n| get(n, 0))),
-                Shape::Vector(count) => row.output().vector(count, move |m, i| m.read(|n| get(n, i))),
-                // Not an output: it would crowd every master's result file.
-                Shape::Matrix(rows, columns) => {
-                    row.local()
-                        .matrix(rows, columns, move |m, i, j| m.read(|n| get(n, columns * i + j)));
-                }
-            }
+        Shown::Real(get) => real_estimate(t, port, get),
+        Shown::Innovation(first) => real_estimate(t, port, move |n, i| n.innovation().residual[first + i]),
+        Shown::Variance(first) => real_estimate(t, port, move |n, i| n.innovation().variance[first + i]),
+    }
+}
+
+fn real_estimate(
+    t: &mut Builder,
+    port: &'static Port,
+    get: impl Fn(&Navigator, usize) -> f64 + Copy + Send + Sync + 'static,
+) {
+    let row = with_unit(t.real(port.name).discrete(), port).about_by(|i| port.about(i).to_owned());
+    match port.shape {
+        Shape::Scalar => row.output().get(move |m| m.read(|n| get(n, 0))),
+        Shape::Vector(count) => row.output().vector(count, move |m, i| m.read(|n| get(n, i))),
+        // Not an output: it would crowd every master's result file.
+        Shape::Matrix(rows, columns) => {
+            row.local()
+                .matrix(rows, columns, move |m, i, j| m.read(|n| get(n, columns * i + j)));
         }
     }
 }
@@ -380,6 +374,7 @@ fn estimate_row(t: &mut Builder, port: &'static Port, shown: Shown) {
 mod tests {
     use super::*;
     use fmi2_export::{Experiment, Log, Model};
+    use interface::Sensor;
     use interface::ports::PORTS;
     use interface::signals::Seen;
     use std::path::Path;
@@ -416,23 +411,28 @@ mod tests {
 
     /// A sample at `t` seconds, which is also its ordinal, with every sensor's measurement; both vehicles in low orbit.
     fn sampled(mut model: NavModel, t: i32) -> NavModel {
-        let seen = Seen { due: true, valid: true };
         let mut init = [0.0; 18];
         init[..6].copy_from_slice(&[500.0, 30.0, -20.0, -0.5, 0.1, 0.0]);
         init[9..15].copy_from_slice(&[6.878e6, 0.0, 0.0, 0.0, 7.6e3, 0.0]);
         model.inputs = Signals {
             sample_time: f64::from(t),
             sample_count: t,
-            lidar: seen,
-            lidar_z: [501.0, 1e-4, -2e-4],
-            metrology: seen,
-            metrology_z: [500.0, 30.0, -20.0, -0.5, 0.1, 0.0],
             target_orbit: [8.1e6, 10.0, 5.6e10, 0.5, 0.25],
             // Body y, the boresight, along N x.
             dcm_bc_n: [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0],
             nav_init: init,
             ..model.inputs
         };
+        for (sensor, z) in [
+            (Sensor::Lidar, [501.0, 1e-4, -2e-4, 0.0, 0.0, 0.0]),
+            (Sensor::Metrology, [500.0, 30.0, -20.0, -0.5, 0.1, 0.0]),
+        ] {
+            model.inputs[sensor] = Seen {
+                due: true,
+                valid: true,
+                z,
+            };
+        }
         model.do_step(f64::from(t - 1), 1.0, &mut Log::silent()).unwrap();
         model
     }

@@ -1,8 +1,8 @@
 //! What one slave holds: parameters and inputs as a master sets them on one side, a running [`Simulation`] on the other.
 
 use astro::TargetOrbit;
-use interface::Signals;
 use interface::signals::Seen;
+use interface::{Sensor, Signals};
 use serde::{Deserialize, Serialize};
 use truth::{Inputs, Params, SensorSample, Simulation};
 
@@ -29,10 +29,7 @@ impl TruthModel {
 /// What the outputs show of no sensor.
 pub fn nothing() -> Signals {
     Signals {
-        lidar: Seen::default(),
-        camera: Seen::default(),
-        radio: Seen::default(),
-        metrology: Seen::default(),
+        sensors: [Seen::default(); Sensor::COUNT],
         accelerometer_valid: false,
         dcm_bc_n: [0.0; 9],
         ..Signals::default()
@@ -41,19 +38,9 @@ pub fn nothing() -> Signals {
 
 /// Makes the outputs show a sample.
 pub fn show(signals: &mut Signals, sample: &SensorSample) {
-    let seen = |due, valid| Seen { due, valid };
-    let (lidar, camera, radio, metrology) = (&sample.lidar, &sample.camera, &sample.radio, &sample.metrology);
     signals.sample_time = sample.time;
     signals.sample_count = i32::try_from(sample.count).unwrap_or(i32::MAX);
-    signals.lidar = seen(lidar.due, lidar.valid);
-    signals.lidar_z = [lidar.range, lidar.azimuth, lidar.elevation];
-    signals.camera = seen(camera.due, camera.valid);
-    signals.camera_z = [camera.azimuth, camera.elevation];
-    signals.radio = seen(radio.due, radio.valid);
-    signals.radio_z = [radio.range, radio.range_rate];
-    signals.metrology = seen(metrology.due, metrology.valid);
-    signals.metrology_z[..3].copy_from_slice(metrology.rho_lvlh.as_slice());
-    signals.metrology_z[3..].copy_from_slice(metrology.rho_dot_lvlh.as_slice());
+    signals.sensors = sample.sensors;
     let orbit = |o: &TargetOrbit| [o.r, o.r_dot, o.h, o.inclination, o.argument_of_latitude];
     signals.target_orbit = sample.target_orbit.as_ref().map_or([0.0; 5], orbit);
     signals.accelerometer_valid = sample.accelerometer.valid;

@@ -6,7 +6,7 @@ use crate::slave::TruthModel;
 use fmi2_export::{Table, TableBuilder};
 use interface::Bound;
 use interface::mission::Embedded;
-use interface::ports::{Port, Role, Shape, of};
+use interface::ports::{Kind, Port, Role, Shape, of};
 use interface::signals::{Slot, slots};
 use truth::{Forces, Moment, PARAMETERS, Parameter};
 
@@ -86,9 +86,9 @@ fn parameter_row(t: &mut Builder, row: usize, parameter: &'static Parameter) {
     let about = if parameter.own {
         format!("{}; -1: the mission's own", parameter.about)
     } else {
-        parameter.about.to_owned()
+        parameter.about.to_string()
     };
-    let variable = t.real(parameter.name).parameter().about(about);
+    let variable = t.real(parameter.name.as_ref()).parameter().about(about);
     let variable = match parameter.unit {
         "" => variable.unit("1"),
         "rad" => variable.unit("rad").display_unit("deg"),
@@ -139,33 +139,34 @@ fn inputs(t: &mut Builder) {
 
 /// What the newest sample holds; that of a sensor which is not on board is zero.
 fn sensor_row(t: &mut Builder, port: &'static Port, slot: Slot) {
-    match slot {
-        Slot::Integer(get, _) => t
-            .integer(port.name)
+    let (name, about) = (port.name, port.about(0));
+    match port.kind {
+        Kind::Integer => t
+            .integer(name)
             .output()
-            .about(port.about(0))
-            .get(move |m| get(&m.signals)),
-        Slot::Boolean(get, _) => t
-            .boolean(port.name)
+            .about(about)
+            .get(move |m| slot.integer(&m.signals)),
+        Kind::Boolean => t
+            .boolean(name)
             .output()
-            .about(port.about(0))
-            .get(move |m| get(&m.signals)),
-        Slot::Real(get, _) => {
-            let mut row = t.real(port.name).output().discrete();
+            .about(about)
+            .get(move |m| slot.boolean(&m.signals)),
+        _ => {
+            let mut row = t.real(name).output().discrete();
             row = if port.unit(0) == "rad" {
                 row.unit("rad").display_unit("deg")
             } else {
                 row.unit_by(|i| port.unit(i))
             };
             row = row.about_by(|i| port.about(i).to_owned());
-            if port.name == "nav_init.x" {
+            if name == "nav_init.x" {
                 row = row.initially_from("a_dist_t_n");
             }
             match port.shape {
-                Shape::Scalar => row.get(move |m| get(&m.signals)[0]),
-                Shape::Vector(n) => row.vector(n, move |m, i| get(&m.signals)[i]),
+                Shape::Scalar => row.get(move |m| slot.reals(&m.signals)[0]),
+                Shape::Vector(n) => row.vector(n, move |m, i| slot.reals(&m.signals)[i]),
                 Shape::Matrix(rows, columns) => {
-                    row.matrix(rows, columns, move |m, i, j| get(&m.signals)[columns * i + j])
+                    row.matrix(rows, columns, move |m, i, j| slot.reals(&m.signals)[columns * i + j])
                 }
             }
         }
@@ -200,6 +201,7 @@ fn truth_row(t: &mut Builder, port: &'static Port) {
 mod tests {
     use super::*;
     use fmi2_export::{Experiment, Log, Model};
+    use interface::Sensor;
 
     /// Value of a Real variable.
     fn real(model: &TruthModel, name: &str) -> f64 {
@@ -231,9 +233,9 @@ mod tests {
         let (sample, now) = (simulation.sample(), simulation.now());
         let expected = [
             ("sample_time", 14.0),
-            ("lidar.range", sample.lidar.range),
-            ("lidar.azimuth", sample.lidar.azimuth),
-            ("lidar.elevation", sample.lidar.elevation),
+            ("lidar.range", sample[Sensor::Lidar].z[0]),
+            ("lidar.azimuth", sample[Sensor::Lidar].z[1]),
+            ("lidar.elevation", sample[Sensor::Lidar].z[2]),
             ("accelerometer.alpha_c_bc[2]", sample.accelerometer.alpha_c_bc.y),
             ("dcm_bc_n[1,3]", sample.dcm_bc_n[(0, 2)]),
             ("nav_init.x[1]", simulation.initial_estimate()[0]),
@@ -264,8 +266,8 @@ mod tests {
         let expected = [
             ("sample_time", 14.0),
             ("lidar.range", 0.0),
-            ("metrology.rho_lvlh[2]", sample.metrology.rho_lvlh.y),
-            ("metrology.rho_dot_lvlh[1]", sample.metrology.rho_dot_lvlh.x),
+            ("metrology.rho_lvlh[2]", sample[Sensor::Metrology].z[1]),
+            ("metrology.rho_dot_lvlh[1]", sample[Sensor::Metrology].z[3]),
             ("target_orbit.r", orbit.r),
             ("target_orbit.r_dot", orbit.r_dot),
             ("target_orbit.h", orbit.h),

@@ -3,7 +3,7 @@
 use crate::error::FilterError;
 use interface::Bound::{Any, NonNegative, Positive};
 use interface::mission::{Frame, Gravity};
-use interface::{Bound, Navigation};
+use interface::{Bound, Navigation, Sensor};
 use serde::{Deserialize, Serialize};
 
 /// Tuning that all laws share, SI. A value of [`Beliefs::OWN`] means "the mission's own".
@@ -169,31 +169,15 @@ impl Beliefs {
                 &mut s.sigma_m_s2,
             )?;
         }
-        if let Some(s) = &mut told.lidar {
-            put("r.sigma_range", Positive, "m", self.r_sigma_range, &mut s.sigma_range_m)?;
-            put(
-                "r.sigma_angle",
-                Positive,
-                "rad",
-                self.r_sigma_angle,
-                &mut s.sigma_angle_rad,
-            )?;
-        }
-        if let Some(s) = &mut told.metrology {
-            put(
-                "r.sigma_position",
-                Positive,
-                "m",
-                self.r_sigma_position,
-                &mut s.sigma_position_m,
-            )?;
-            put(
-                "r.sigma_velocity",
-                Positive,
-                "m/s",
-                self.r_sigma_velocity,
-                &mut s.sigma_velocity_m_s,
-            )?;
+        for (name, sensor, place, value) in [
+            ("r.sigma_range", Sensor::Lidar, 0, self.r_sigma_range),
+            ("r.sigma_angle", Sensor::Lidar, 1, self.r_sigma_angle),
+            ("r.sigma_position", Sensor::Metrology, 0, self.r_sigma_position),
+            ("r.sigma_velocity", Sensor::Metrology, 1, self.r_sigma_velocity),
+        ] {
+            if let Some(sigma) = told.sigma_mut(sensor, place) {
+                put(name, Positive, sensor.sigmas()[place].quantity.unit(), value, sigma)?;
+            }
         }
         let (name, value) = ("reference_orbit.semi_major_axis", self.reference_orbit_semi_major_axis);
         if let Some(a) = &mut told.reference_orbit_a_m {

@@ -3,7 +3,7 @@
 use crate::state::RowVector;
 use serde::{Deserialize, Serialize};
 
-/// The newest innovation, SI, with a place for every row of every sensor ([`crate::Sensor::channels`]).
+/// The newest innovation, SI, with a place for every row of every sensor ([`interface::Sensor::channels`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Innovation {
     /// Measured minus predicted; zero where nothing was measured.

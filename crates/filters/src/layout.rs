@@ -2,65 +2,23 @@
 
 use crate::sample::Sample;
 use crate::state::{MAX_ROWS, RowVector};
-use interface::Navigation;
+use interface::{Navigation, Sensor};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
-
-/// A sensor that sees the target.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Sensor {
-    /// Range, azimuth, elevation.
-    Lidar,
-    /// Azimuth, elevation.
-    Camera,
-    /// Range, range rate.
-    Radio,
-    /// Relative position and velocity in the target's LVLH frame.
-    Metrology,
-}
-
-impl Sensor {
-    /// Every sensor, in the order of their rows.
-    pub const ALL: [Self; 4] = [Self::Lidar, Self::Camera, Self::Radio, Self::Metrology];
-
-    /// Number of its rows.
-    pub fn rows(self) -> usize {
-        match self {
-            Self::Lidar => 3,
-            Self::Camera | Self::Radio => 2,
-            Self::Metrology => 6,
-        }
-    }
-
-    /// Its places in an [`crate::Innovation`], which has a place for every row of every sensor.
-    pub fn channels(self) -> Range<usize> {
-        let first = Self::ALL.iter().take_while(|s| **s != self).map(|s| s.rows()).sum();
-        first..first + self.rows()
-    }
-}
 
 /// Places of the rows of a mission's sensors, one behind the other: the same at every epoch, whichever of them measure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Layout {
     /// First row of each sensor of [`Sensor::ALL`] that is on board.
-    first: [Option<usize>; Sensor::ALL.len()],
+    first: [Option<usize>; Sensor::COUNT],
     rows: usize,
 }
 
 impl Layout {
     /// The sensors of the target that a mission has.
     pub fn of(navigation: &Navigation) -> Self {
-        Self::new(
-            &Sensor::ALL
-                .into_iter()
-                .filter(|sensor| match sensor {
-                    Sensor::Lidar => navigation.lidar.is_some(),
-                    Sensor::Camera => navigation.camera.is_some(),
-                    Sensor::Radio => navigation.radio.is_some(),
-                    Sensor::Metrology => navigation.metrology.is_some(),
-                })
-                .collect::<Vec<_>>(),
-        )
+        let on_board: Vec<Sensor> = navigation.sensors.iter().map(|known| known.sensor).collect();
+        Self::new(&on_board)
     }
 
     /// These sensors, in the order of [`Sensor::ALL`].
@@ -82,21 +40,13 @@ impl Layout {
 
     /// Rows of one; `None` when it is not on board.
     pub fn of_sensor(&self, sensor: Sensor) -> Option<Range<usize>> {
-        let place = Sensor::ALL.iter().position(|s| *s == sensor)?;
-        self.first[place].map(|first| first..first + sensor.rows())
+        self.first[sensor as usize].map(|first| first..first + sensor.rows())
     }
 
     /// Whether any of them samples at this epoch.
     pub(crate) fn any_due(&self, sample: &Sample) -> bool {
-        Sensor::ALL.into_iter().any(|sensor| {
-            self.of_sensor(sensor).is_some()
-                && match sensor {
-                    Sensor::Lidar => sample.lidar.is_due(),
-                    Sensor::Camera => sample.camera.is_due(),
-                    Sensor::Radio => sample.radio.is_due(),
-                    Sensor::Metrology => sample.metrology.is_due(),
-                }
-        })
+        let due = |sensor: Sensor| self.of_sensor(sensor).is_some() && sample[sensor].is_due();
+        Sensor::ALL.into_iter().any(due)
     }
 
     /// From the places of the mission's rows to those of all channels.
@@ -152,7 +102,7 @@ mod tests {
         assert_eq!(Sensor::Metrology.channels(), 7..13);
         let all = layout.to_channels(&RowVector::from_fn(|i, _| (i + 1) as f64));
         let expected = [0, 0, 0, 1, 2, 0, 0, 3, 4, 5, 6, 7, 8].map(f64::from);
-        assert_eq!(all, RowVector::from(expected));
+        assert_eq!(all.as_slice()[..13], expected);
         let mut measured = Measured::default();
         assert!(measured.is_empty());
         measured.mark(2..4);

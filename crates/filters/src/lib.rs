@@ -33,7 +33,7 @@ pub use error::FilterError;
 pub use gravity::Gravity;
 pub use innovation::Innovation;
 pub use interface::{Navigation, Status};
-pub use layout::{Layout, Measured, Sensor};
+pub use layout::{Layout, Measured};
 pub use navigator::{Estimate, Navigator, Settings};
 pub use sample::{Reading, Sample, SpecificForce};
 pub use units::Units;

@@ -13,7 +13,7 @@ use crate::tunable::{Tunables, Value};
 use crate::units::Units;
 use interface::Bound::Positive;
 use interface::mission::Frame;
-use interface::{Navigation, Status};
+use interface::{Navigation, Sensor, Status};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -312,6 +312,11 @@ impl Navigator {
         self.frame
     }
 
+    /// Whether it uses what this sensor of the target measures.
+    pub fn uses(&self, sensor: Sensor) -> bool {
+        self.layout.of_sensor(sensor).is_some()
+    }
+
     /// Number of the first nine states that have a covariance: nine, six without an acceleration state, none under a
     /// constant gain.
     pub fn dimension(&self) -> usize {
@@ -350,7 +355,7 @@ impl Navigator {
 mod tests {
     use super::*;
     use crate::sample::Reading;
-    use nalgebra::{Matrix3, Vector3};
+    use nalgebra::Matrix3;
 
     /// Two steps as one move a state, and add to it, as the two do.
     #[test]
@@ -387,7 +392,7 @@ mod tests {
             .fixed_rows_mut::<6>(9)
             .copy_from_slice(&[6.878e6, 0.0, 0.0, 0.0, 7.3e3, 2.0e3]);
         let mut sample = Sample::blank(1, 1.0);
-        sample.lidar = Reading::Seen(Vector3::new(503.0, 0.06, 0.04));
+        sample[Sensor::Lidar] = Reading::of(&[503.0, 0.06, 0.04]);
         let gap = Gap {
             from_s: 0.0,
             length_s: 1.0,

@@ -1,26 +1,33 @@
 //! One sensor sample as it reaches a filter, SI.
 
 use astro::TargetOrbit;
-use interface::Signals;
 use interface::signals::Seen;
-use nalgebra::{Matrix3, SVector, Vector2, Vector3, Vector6};
+use interface::{Sensor, Signals};
+use nalgebra::{Matrix3, Vector3, Vector6};
+use sensors::Rows;
 use serde::{Deserialize, Serialize};
+use std::ops::{Index, IndexMut};
 
 /// What a sensor of the target reports at one epoch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub enum Reading<T> {
+pub enum Reading {
     /// It does not sample at this epoch.
     #[default]
     NotDue,
     /// It samples and sees nothing.
     Lost,
-    /// It measures this.
-    Seen(T),
+    /// It measures this, SI and radians.
+    Seen(Rows),
 }
 
-impl<T> Reading<T> {
+impl Reading {
+    /// A measurement of these rows.
+    pub fn of(z: &[f64]) -> Self {
+        Self::Seen(Rows::from_fn(|row, _| z.get(row).copied().unwrap_or_default()))
+    }
+
     /// The measurement, where there is one.
-    pub fn seen(self) -> Option<T> {
+    pub fn seen(self) -> Option<Rows> {
         match self {
             Self::Seen(z) => Some(z),
             Self::NotDue | Self::Lost => None,
@@ -58,14 +65,8 @@ pub struct Sample {
     pub count: i32,
     /// Epoch, s.
     pub time: f64,
-    /// Range (m), azimuth and elevation (rad) of the target in LiDAR axes.
-    pub lidar: Reading<Vector3<f64>>,
-    /// Azimuth and elevation (rad) of the target in LiDAR axes.
-    pub camera: Reading<Vector2<f64>>,
-    /// Range (m) and range rate (m/s) of the target.
-    pub radio: Reading<Vector2<f64>>,
-    /// Relative position (m) and velocity (m/s) of the chaser in the target's LVLH frame.
-    pub metrology: Reading<Vector6<f64>>,
+    /// What each sensor of the target reports, in the order of [`Sensor::ALL`].
+    pub sensors: [Reading; Sensor::COUNT],
     /// Orbit of the target as an absolute navigation on board has it; all zero where nobody provides it. Its node is not read.
     pub target_orbit: TargetOrbit,
     /// Accelerometer reading; `None` at an epoch at which it does not sample.
@@ -80,10 +81,7 @@ impl Sample {
         Self {
             count,
             time,
-            lidar: Reading::NotDue,
-            camera: Reading::NotDue,
-            radio: Reading::NotDue,
-            metrology: Reading::NotDue,
+            sensors: [Reading::NotDue; Sensor::COUNT],
             target_orbit: TargetOrbit::from_vector(&Vector6::zeros()),
             accelerometer: None,
             dcm_bc_n: Matrix3::identity(),
@@ -91,24 +89,33 @@ impl Sample {
     }
 }
 
+impl Index<Sensor> for Sample {
+    type Output = Reading;
+
+    fn index(&self, sensor: Sensor) -> &Reading {
+        &self.sensors[sensor as usize]
+    }
+}
+
+impl IndexMut<Sensor> for Sample {
+    fn index_mut(&mut self, sensor: Sensor) -> &mut Reading {
+        &mut self.sensors[sensor as usize]
+    }
+}
+
 impl From<&Signals> for Sample {
     fn from(s: &Signals) -> Self {
-        fn reading<const M: usize>(of: Seen, z: &[f64; M]) -> Reading<SVector<f64, M>> {
-            match (of.due, of.valid) {
-                (false, _) => Reading::NotDue,
-                (true, false) => Reading::Lost,
-                (true, true) => Reading::Seen(SVector::from(*z)),
-            }
-        }
+        let reading = |seen: Seen| match (seen.due, seen.valid) {
+            (false, _) => Reading::NotDue,
+            (true, false) => Reading::Lost,
+            (true, true) => Reading::Seen(Rows::from(seen.z)),
+        };
         let alpha = Vector3::from(s.alpha_c_bc);
         let [r, r_dot, h, inclination, argument_of_latitude] = s.target_orbit;
         Self {
             count: s.sample_count,
             time: s.sample_time,
-            lidar: reading(s.lidar, &s.lidar_z),
-            camera: reading(s.camera, &s.camera_z),
-            radio: reading(s.radio, &s.radio_z),
-            metrology: reading(s.metrology, &s.metrology_z),
+            sensors: s.sensors.map(reading),
             target_orbit: TargetOrbit {
                 r,
                 r_dot,

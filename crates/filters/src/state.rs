@@ -39,7 +39,7 @@ pub type Target = SVector<f64, N_TARGET>;
 /// Covariance, transition or process-noise matrix of the target's nine states.
 pub type TargetMatrix = SMatrix<f64, N_TARGET, N_TARGET>;
 /// Most rows that the sensors of the target have together.
-pub const MAX_ROWS: usize = 13;
+pub const MAX_ROWS: usize = interface::Sensor::ALL_ROWS;
 /// Rows of the sensors of the target over the target's nine states, in the places of [`crate::Layout`].
 pub type Rows = SMatrix<f64, MAX_ROWS, N_TARGET>;
 /// One value for each row.

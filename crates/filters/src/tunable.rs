@@ -5,6 +5,7 @@ use crate::beliefs::{Beliefs, is_own};
 use crate::error::FilterError;
 use crate::units::Units;
 use interface::Navigation;
+use interface::mission::Quantity;
 use serde::{Deserialize, Serialize};
 
 pub use interface::Bound;
@@ -29,23 +30,18 @@ pub struct Scales {
 impl Scales {
     /// Those of a mission.
     pub fn of(told: &Navigation) -> Self {
-        let periods = [
-            told.lidar.map(|s| s.period_s),
-            told.camera.map(|s| s.period_s),
-            told.radio.map(|s| s.period_s),
-            told.metrology.map(|s| s.period_s),
-        ];
-        let lengths = [
-            told.lidar.map(|s| s.sigma_range_m),
-            told.radio.map(|s| s.sigma_range_m),
-            told.metrology.map(|s| s.sigma_position_m),
-        ];
-        let least = |of: &[Option<f64>]| of.iter().flatten().copied().reduce(f64::min).unwrap_or(1.0);
+        let lengths = told.sensors.iter().flat_map(|known| {
+            let sigmas = known.sensor.sigmas().iter().zip(&known.sigmas);
+            sigmas
+                .filter(|(sigma, _)| sigma.quantity == Quantity::Length)
+                .map(|(_, value)| *value)
+        });
+        let periods = told.sensors.iter().map(|known| known.period_s);
         Self {
             disturbance: told.scale.disturbance_m_s2,
             time: told.scale.disturbance_time_s,
-            period: least(&periods),
-            length: least(&lengths),
+            period: periods.reduce(f64::min).unwrap_or(1.0),
+            length: lengths.reduce(f64::min).unwrap_or(1.0),
             position: told.p0.position,
             units: Units::of(&told.units),
         }

@@ -3,14 +3,14 @@
 
 #![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
 
-use astro::{TargetOrbit, frames};
+use astro::frames;
 use filters::dynamics::initial_covariance;
 use filters::laws::FILTERS;
 use filters::state::State;
 use filters::tunable::Value;
 use filters::{Navigator, Reading, Sample, Settings, SpecificForce, jerk};
-use interface::Navigation;
 use interface::mission::embedded;
+use interface::{Navigation, Sensor};
 use nalgebra::{Matrix3, SVector, Vector2, Vector3, Vector6};
 use numerics::{Generator, Source, rk4, stream};
 use rand_distr::{Distribution, StandardNormal};
@@ -138,17 +138,12 @@ impl Truth {
         let rho = frames::lidar_from_body() * dcm_bc_n * (self.part(0) - self.part(6));
         let sigma = Vector3::new(0.08, 0.04_f64.to_radians(), 0.04_f64.to_radians());
         let noise = Vector3::from_fn(|i, _| sigma[i] * normal(&mut self.g));
-        Sample {
-            count,
-            time: f64::from(self.second),
-            lidar: Reading::Seen(sensors::lidar::measure(&rho) + noise),
-            camera: Reading::NotDue,
-            radio: Reading::NotDue,
-            metrology: Reading::NotDue,
-            target_orbit: TargetOrbit::from_vector(&Vector6::zeros()),
-            accelerometer: None,
+        let mut sample = Sample {
             dcm_bc_n,
-        }
+            ..Sample::blank(count, f64::from(self.second))
+        };
+        sample[Sensor::Lidar] = Reading::of((sensors::lidar::measure(&rho) + noise).as_slice());
+        sample
     }
 }
 
@@ -185,7 +180,7 @@ fn nees_without(lidar: u32, accelerometer: u32, runs: u64, lost: impl Fn(u32) ->
             count += 1;
             let mut sample = truth.sample(count);
             if second % lidar != 0 {
-                sample.lidar = Reading::NotDue;
+                sample[Sensor::Lidar] = Reading::NotDue;
             }
             sample.accelerometer = reads.then(|| truth.reading());
             if lost(second) {

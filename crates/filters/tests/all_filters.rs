@@ -11,8 +11,9 @@ use common::{OwnWorld, navigation};
 use filters::laws::FILTERS;
 use filters::state::State;
 use filters::tunable::{Kind, Value};
-use filters::{FilterError, Navigator, Reading, Sample, Sensor, Settings, Status};
+use filters::{FilterError, Navigator, Reading, Sample, Settings, Status};
 use formation::{Formation, World};
+use interface::Sensor;
 use interface::mission::Frame;
 use nalgebra::{Vector3, Vector6};
 use numerics::{Source, rk4, stream};
@@ -147,7 +148,7 @@ fn dropouts_coast_and_gaps_are_bridged() {
         for k in 1..=400 {
             let mut sample = world.step();
             if k % 7 == 0 {
-                (sample.lidar, sample.metrology) = (Reading::Lost, Reading::Lost);
+                sample.sensors.fill(Reading::Lost);
             }
             if k % 50 == 20 {
                 continue;
@@ -249,10 +250,8 @@ fn networks_learn_a_constant_disturbance() {
                 let w: f64 = StandardNormal.sample(g);
                 if i < 3 { 1e-2 * w } else { 1e-4 * w }
             });
-            let sample = Sample {
-                metrology: Reading::Seen(x + noise),
-                ..Sample::blank(k, f64::from(k))
-            };
+            let mut sample = Sample::blank(k, f64::from(k));
+            sample[Sensor::Metrology] = Reading::of((x + noise).as_slice());
             nav.process(&sample, &start).unwrap();
             if k > settled {
                 learnt += nav.estimate().x.fixed_rows::<3>(6) / f64::from(samples - settled);
@@ -285,7 +284,7 @@ fn off_nominal_scales_the_gain_of_the_observer() {
         let mut nav = Navigator::new(&navigation("formation"), &chosen, 0.0).unwrap();
         let sample = world.step();
         nav.process(&sample, &start).unwrap();
-        let left = sample.metrology.seen().unwrap() - nav.estimate().x.fixed_rows::<6>(0);
+        let left = sample[Sensor::Metrology].seen().unwrap() - nav.estimate().x.fixed_rows::<6>(0);
         for i in 0..6 {
             let k: f64 = if i < 3 { 0.42 } else { 0.025 };
             let expected = (-factor * k).exp() * nav.innovation().residual[Sensor::Metrology.channels().start + i];
@@ -327,8 +326,9 @@ fn a_filter_that_is_led_astray_says_so() {
         let mut sample = world.step();
         if k > 300 {
             // A second target that runs away faster than the filter can believe.
-            let astray = Vector3::new(0.5 * f64::from(k - 300).powi(2), 0.0, 0.0);
-            sample.lidar = Reading::Seen(sample.lidar.seen().unwrap() + astray);
+            let mut z = sample[Sensor::Lidar].seen().unwrap();
+            z[0] += 0.5 * f64::from(k - 300).powi(2);
+            sample[Sensor::Lidar] = Reading::Seen(z);
         }
         nav.process(&sample, &start).unwrap();
     }

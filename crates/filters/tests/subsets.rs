@@ -4,53 +4,43 @@
 
 mod common;
 
-use astro::{Cr3bp, Lvlh, TargetOrbit, frames};
+use astro::{Cr3bp, Lvlh, frames};
 use common::OwnWorld;
 use filters::dynamics::{TwoVehicles, initial_covariance};
 use filters::laws::FILTERS;
 use filters::state::State;
 use filters::tunable::Value;
 use filters::{Gravity, Navigator, Reading, Sample, Settings, Status, Units};
-use interface::Navigation;
-use interface::mission::{InitialSigma, KnownCamera, KnownLidar, KnownMetrology, KnownRadio, embedded};
-use nalgebra::{Matrix3, Vector2, Vector3, Vector6};
+use interface::mission::{InitialSigma, KnownSensor, Quantity, embedded};
+use interface::{Navigation, Sensor};
+use nalgebra::{Matrix3, Vector3};
 use numerics::{Generator, Source, stream};
 use rand_distr::{Distribution, StandardNormal};
 
-const SIGMA_CAMERA: f64 = 2e-4;
-const SIGMA_RADIO: [f64; 2] = [0.5, 2e-3];
-const SIGMA_METROLOGY: [f64; 2] = [0.05, 1e-3];
-
 /// Sensors on board with their periods in seconds.
-#[derive(Clone, Copy)]
-struct Aboard {
-    lidar: Option<u32>,
-    camera: Option<u32>,
-    radio: Option<u32>,
-    metrology: Option<u32>,
+type Aboard = [(Sensor, u32)];
+
+/// Deviations of the noise of each sensor, SI and radians.
+fn sigmas(sensor: Sensor) -> Vec<f64> {
+    let of = |quantity| match (sensor, quantity) {
+        // As the world has it.
+        (Sensor::Lidar, Quantity::Length) => 0.08,
+        (Sensor::Lidar, _) => 0.04_f64.to_radians(),
+        (_, Quantity::Length) => 0.1,
+        (_, Quantity::Angle) => 2e-4,
+        (_, Quantity::Velocity) => 1e-3,
+    };
+    sensor.sigmas().iter().map(|sigma| of(sigma.quantity)).collect()
 }
 
 fn told(mission: &str, aboard: &Aboard) -> Navigation {
+    let known = |&(sensor, period): &(Sensor, u32)| KnownSensor {
+        sensor,
+        period_s: f64::from(period),
+        sigmas: sigmas(sensor),
+    };
     Navigation {
-        lidar: aboard.lidar.map(|period| KnownLidar {
-            period_s: f64::from(period),
-            sigma_range_m: 0.08,
-            sigma_angle_rad: 0.04_f64.to_radians(),
-        }),
-        camera: aboard.camera.map(|period| KnownCamera {
-            period_s: f64::from(period),
-            sigma_angle_rad: SIGMA_CAMERA,
-        }),
-        radio: aboard.radio.map(|period| KnownRadio {
-            period_s: f64::from(period),
-            sigma_range_m: SIGMA_RADIO[0],
-            sigma_range_rate_m_s: SIGMA_RADIO[1],
-        }),
-        metrology: aboard.metrology.map(|period| KnownMetrology {
-            period_s: f64::from(period),
-            sigma_position_m: SIGMA_METROLOGY[0],
-            sigma_velocity_m_s: SIGMA_METROLOGY[1],
-        }),
+        sensors: aboard.iter().map(known).collect(),
         ..embedded(mission).unwrap().mission().unwrap().navigation()
     }
 }
@@ -66,70 +56,46 @@ fn normal(g: &mut Generator) -> f64 {
     StandardNormal.sample(g)
 }
 
-/// `value` when the sensor is aboard and due at this second.
-fn due<T>(period: Option<u32>, second: u32, value: T) -> Reading<T> {
-    match period {
-        Some(period) if second.is_multiple_of(period) => Reading::Seen(value),
-        _ => Reading::NotDue,
-    }
-}
-
 /// Replaces what a sample sees by what the sensors on board do; the LiDAR stays as it is when it is due.
 fn seen(sample: &Sample, x: &State, second: u32, aboard: &Aboard, g: &mut Generator) -> Sample {
     let part = |slot: usize| x.fixed_rows::<3>(slot).into_owned();
-    let (r_tc, v_tc, r_t, v_t) = (part(0), part(3), part(0) + part(9), part(3) + part(12));
-    let rho = frames::lidar_from_body() * sample.dcm_bc_n * r_tc;
-    let angles = sensors::camera::measure(&rho) + Vector2::from_fn(|_, _| SIGMA_CAMERA * normal(g));
-    let radio = sensors::radio::measure(&r_tc, &v_tc) + Vector2::from_fn(|i, _| SIGMA_RADIO[i] * normal(g));
+    let (r_t, v_t) = (part(0) + part(9), part(3) + part(12));
     let lvlh = Lvlh::new(&r_t, &v_t, &astro::earth::FILTER.acceleration(&r_t));
     let (rho, rho_dot) = lvlh.relative(&part(9), &part(12));
-    let metrology =
-        sensors::metrology::measure(&rho, &rho_dot) + Vector6::from_fn(|i, _| SIGMA_METROLOGY[i / 3] * normal(g));
-    Sample {
-        lidar: match (due(aboard.lidar, second, ()), sample.lidar) {
-            (Reading::Seen(()), lidar) => lidar,
-            _ => Reading::NotDue,
-        },
-        camera: due(aboard.camera, second, angles),
-        radio: due(aboard.radio, second, radio),
-        metrology: due(aboard.metrology, second, metrology),
-        ..sample.clone()
+    let scene = sensors::Scene {
+        r_tc_n: part(0),
+        v_tc_n: part(3),
+        dcm_l_n: frames::lidar_from_body() * sample.dcm_bc_n,
+        lvlh: sensors::metrology::measure(&rho, &rho_dot),
+    };
+    let mut all = sample.clone();
+    for sensor in Sensor::ALL {
+        let due = |(of, period): &&(Sensor, u32)| *of == sensor && second.is_multiple_of(*period);
+        let mut z = sensors::of(sensor).measure(&scene);
+        for (z, sigma) in z.iter_mut().zip(sensor.by_row(&sigmas(sensor))) {
+            *z += sigma * normal(g);
+        }
+        match (aboard.iter().find(due), sensor) {
+            (None, _) => all[sensor] = Reading::NotDue,
+            (Some(_), Sensor::Lidar) if sample[sensor].is_due() => (),
+            (Some(_), _) => all[sensor] = Reading::Seen(z),
+        }
     }
+    all
 }
 
 /// fixed_q is told the truth about its world; whatever it sees with, NEES and NIS must be one.
 #[test]
 fn any_subset_of_sensors_keeps_the_filter_consistent() {
-    let none = Aboard {
-        lidar: None,
-        camera: None,
-        radio: None,
-        metrology: None,
-    };
-    let subsets = [
-        Aboard {
-            camera: Some(1),
-            radio: Some(1),
-            ..none
-        },
-        Aboard {
-            lidar: Some(10),
-            radio: Some(3),
-            ..none
-        },
-        Aboard {
-            metrology: Some(2),
-            ..none
-        },
-        Aboard {
-            lidar: Some(1),
-            camera: Some(2),
-            radio: Some(5),
-            metrology: Some(7),
-        },
+    let every: Vec<(Sensor, u32)> = Sensor::ALL.into_iter().zip([1, 2, 5, 7].into_iter().cycle()).collect();
+    let subsets: [&Aboard; 4] = [
+        &[(Sensor::Camera, 1), (Sensor::Radio, 1)],
+        &[(Sensor::Lidar, 10), (Sensor::Radio, 3)],
+        &[(Sensor::Metrology, 2)],
+        &every,
     ];
     let s = 3e-5;
-    for (case, aboard) in subsets.iter().enumerate() {
+    for (case, aboard) in subsets.into_iter().enumerate() {
         let told = told("leo_venting", aboard);
         let runs = 30;
         let (mut nees, mut nis, mut rows) = (0.0, 0.0, 0.0);
@@ -143,13 +109,10 @@ fn any_subset_of_sensors_keeps_the_filter_consistent() {
                 let sample = world.step();
                 let sample = seen(&sample, &world.x, second, aboard, g);
                 nav.process(&sample, &start).unwrap();
-                let expected = [
-                    (sample.lidar.seen().is_some(), 3),
-                    (sample.camera.seen().is_some(), 2),
-                    (sample.radio.seen().is_some(), 2),
-                    (sample.metrology.seen().is_some(), 6),
-                ];
-                let count: usize = expected.iter().filter(|(is, _)| *is).map(|(_, rows)| rows).sum();
+                let measured = Sensor::ALL
+                    .into_iter()
+                    .filter(|sensor| sample[*sensor].seen().is_some());
+                let count: usize = measured.map(Sensor::rows).sum();
                 if count > 0 {
                     assert_eq!((nav.innovation().rows, nav.status()), (count, Status::Tracking));
                     nis += nav.innovation().nis;
@@ -175,12 +138,7 @@ fn any_subset_of_sensors_keeps_the_filter_consistent() {
 /// Rotating axes and nondimensional units: bearings and a radio about the Moon, two vehicles that fly freely.
 #[test]
 fn camera_and_radio_are_consistent_in_rotating_axes() {
-    let aboard = Aboard {
-        lidar: None,
-        camera: Some(2),
-        radio: Some(3),
-        metrology: None,
-    };
+    let aboard = [(Sensor::Camera, 2), (Sensor::Radio, 3)];
     let mut told = told("nrho_venting", &aboard);
     told.p0 = InitialSigma {
         position: 5.0,
@@ -226,15 +184,8 @@ fn camera_and_radio_are_consistent_in_rotating_axes() {
             let si = x.component_mul(&unit);
             let part = |slot: usize| si.fixed_rows::<3>(slot).into_owned();
             let blank = Sample {
-                count: second as i32,
-                time: f64::from(second),
-                lidar: Reading::NotDue,
-                camera: Reading::NotDue,
-                radio: Reading::NotDue,
-                metrology: Reading::NotDue,
-                target_orbit: TargetOrbit::from_vector(&Vector6::zeros()),
-                accelerometer: None,
                 dcm_bc_n: frames::los_body_axes(&part(0), &part(3), &Vector3::z()),
+                ..Sample::blank(second as i32, f64::from(second))
             };
             let sample = seen(&blank, &si, second, &aboard, g);
             nav.process(&sample, &start).unwrap();
@@ -253,45 +204,44 @@ fn camera_and_radio_are_consistent_in_rotating_axes() {
 
 #[test]
 fn only_a_sensor_that_was_due_can_be_missed() {
-    let aboard = Aboard {
-        lidar: Some(1),
-        camera: Some(1),
-        radio: None,
-        metrology: None,
-    };
+    let aboard = [(Sensor::Lidar, 1), (Sensor::Camera, 1)];
     let told = told("leo_venting", &aboard);
     let (mut world, start) = OwnWorld::new(0, 1e-6);
     let mut nav = Navigator::new(&told, &settings("snc"), 0.0).unwrap();
-    let mut next = |lidar: Reading<()>, camera: Reading<Vector2<f64>>, radio: Reading<Vector2<f64>>| {
+    let mut next = |lidar: Told, camera: Told, radio: Told| {
         let mut sample = world.step();
-        sample.lidar = match lidar {
-            Reading::Seen(()) => sample.lidar,
-            Reading::Lost => Reading::Lost,
-            Reading::NotDue => Reading::NotDue,
-        };
-        (sample.camera, sample.radio) = (camera, radio);
+        for (sensor, told) in [(Sensor::Lidar, lidar), (Sensor::Camera, camera), (Sensor::Radio, radio)] {
+            match told {
+                Told::NotDue => sample[sensor] = Reading::NotDue,
+                Told::Lost => sample[sensor] = Reading::Lost,
+                Told::Seen => (),
+            }
+        }
         nav.process(&sample, &start).unwrap();
         (nav.status(), nav.innovation().rows)
     };
-    use Reading::{Lost as Missed, NotDue, Seen as Measured};
+    use Told::{Lost, NotDue, Seen};
     assert_eq!(next(NotDue, NotDue, NotDue), (Status::Initialising, 0), "nothing yet");
-    assert_eq!(next(Measured(()), NotDue, NotDue), (Status::Tracking, 3));
+    assert_eq!(next(Seen, NotDue, NotDue), (Status::Tracking, 3));
     assert_eq!(next(NotDue, NotDue, NotDue), (Status::Tracking, 3), "nothing was due");
-    assert_eq!(next(Missed, NotDue, NotDue), (Status::Coasting, 3));
+    assert_eq!(next(Lost, NotDue, NotDue), (Status::Coasting, 3));
     assert_eq!(next(NotDue, NotDue, NotDue), (Status::Coasting, 3), "still unseen");
-    assert_eq!(next(Measured(()), Missed, NotDue), (Status::Tracking, 3), "one of two");
-    assert_eq!(next(NotDue, NotDue, Missed), (Status::Tracking, 3), "no radio on board");
+    assert_eq!(next(Seen, Lost, NotDue), (Status::Tracking, 3), "one of two");
+    assert_eq!(next(NotDue, NotDue, Lost), (Status::Tracking, 3), "no radio on board");
+}
+
+/// What a sensor is made to say; `Seen` is what the world says.
+#[derive(Clone, Copy)]
+enum Told {
+    NotDue,
+    Lost,
+    Seen,
 }
 
 /// A window of all sensors' rows, some of which are absent at most epochs.
 #[test]
 fn laws_on_windows_go_on_with_any_sensors() {
-    let aboard = Aboard {
-        lidar: Some(1),
-        camera: Some(2),
-        radio: Some(3),
-        metrology: Some(5),
-    };
+    let aboard: Vec<(Sensor, u32)> = Sensor::ALL.into_iter().zip([1, 2, 3, 5].into_iter().cycle()).collect();
     let told = told("leo_venting", &aboard);
     for filter in ["milton", "constrained_q", "rbfnn_ekf", "rbfnn_aekf"] {
         let (mut world, start) = OwnWorld::new(2, 1e-6);
@@ -312,12 +262,7 @@ fn laws_on_windows_go_on_with_any_sensors() {
 
 #[test]
 fn attitude_does_not_matter_to_a_radio() {
-    let aboard = Aboard {
-        lidar: None,
-        camera: None,
-        radio: Some(1),
-        metrology: None,
-    };
+    let aboard = [(Sensor::Radio, 1)];
     let told = told("leo_venting", &aboard);
     let runs: Vec<State> = [true, false]
         .into_iter()

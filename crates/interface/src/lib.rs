@@ -12,6 +12,6 @@ pub mod signals;
 pub mod status;
 
 pub use bound::{Bound, OutOfRange};
-pub use mission::{Mission, MissionError, Navigation};
+pub use mission::{Mission, MissionError, Navigation, Sensor};
 pub use signals::Signals;
 pub use status::Status;

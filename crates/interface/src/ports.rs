@@ -2,6 +2,8 @@
 //!
 //! Where truth and filter use the same name, output connects to input: equal names connect is the whole wiring rule.
 
+use crate::mission::Sensor as Of;
+
 /// Type of a port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
@@ -72,6 +74,23 @@ pub struct Port {
     pub about: &'static [&'static str],
     /// Who offers and who reads it.
     pub role: Role,
+    /// Which part of what a sensor of the target says, or of what a filter makes of it; `None` for anything else.
+    pub part: Option<(Of, Part)>,
+}
+
+/// Part of what a sensor of the target says at an epoch, and of what a filter makes of that.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// Whether it samples.
+    Due,
+    /// Whether it saw the target.
+    Valid,
+    /// What it measured: rows from this one on.
+    Measured(usize),
+    /// Measured minus predicted, likewise.
+    Innovation(usize),
+    /// Predicted variances of those.
+    Variance(usize),
 }
 
 impl Port {
@@ -116,10 +135,50 @@ const fn row(
         shape,
         about,
         role,
+        part: None,
+    }
+}
+
+/// Whether a sensor samples.
+const fn due(of: Of, name: &'static str, about: &'static [&'static str]) -> Port {
+    let port = row(Role::Sensor, name, Kind::Boolean, Shape::Scalar, &[], about);
+    Port {
+        part: Some((of, Part::Due)),
+        ..port
+    }
+}
+
+/// Whether it saw the target.
+const fn valid(of: Of, name: &'static str, about: &'static [&'static str]) -> Port {
+    let port = row(Role::Sensor, name, Kind::Boolean, Shape::Scalar, &[], about);
+    Port {
+        part: Some((of, Part::Valid)),
+        ..port
+    }
+}
+
+/// Some of its rows, from `first` on, or their innovations or variances.
+const fn rows(
+    of: Of,
+    part: Part,
+    name: &'static str,
+    shape: Shape,
+    units: &'static [&'static str],
+    about: &'static [&'static str],
+) -> Port {
+    let role = match part {
+        Part::Innovation(_) | Part::Variance(_) => Role::Estimate,
+        Part::Due | Part::Valid | Part::Measured(_) => Role::Sensor,
+    };
+    let port = row(role, name, Kind::Real, shape, units, about);
+    Port {
+        part: Some((of, part)),
+        ..port
     }
 }
 
 use Kind::{Boolean, Enumeration, Integer, Real};
+use Part::{Innovation, Measured, Variance};
 use Role::{Command, Estimate, Sensor, Truth};
 use Shape::{Matrix, Scalar, Vector};
 
@@ -144,20 +203,20 @@ pub const PORTS: &[Port] = &[
 
     row(Sensor, "sample_time", Real, Scalar, &["s"], &["epoch of the newest sensor sample; 0 before the first"]),
     row(Sensor, "sample_count", Integer, Scalar, &[], &["ordinal of the newest sensor sample; 0 before the first"]),
-    row(Sensor, "lidar.valid", Boolean, Scalar, &[],
+    valid(Of::Lidar, "lidar.valid",
         &["whether the LiDAR saw the target; if not, range and angles keep their last values"]),
-    row(Sensor, "lidar.range", Real, Scalar, &["m"], &["measured distance from chaser to target"]),
-    row(Sensor, "lidar.azimuth", Real, Scalar, &["rad"], &["measured angle atan(rho_x / rho_z) in LiDAR axes"]),
-    row(Sensor, "lidar.elevation", Real, Scalar, &["rad"], &["measured angle atan(rho_y / rho_z) in LiDAR axes"]),
+    rows(Of::Lidar, Measured(0), "lidar.range", Scalar, &["m"], &["measured distance from chaser to target"]),
+    rows(Of::Lidar, Measured(1), "lidar.azimuth", Scalar, &["rad"], &["measured angle atan(rho_x / rho_z) in LiDAR axes"]),
+    rows(Of::Lidar, Measured(2), "lidar.elevation", Scalar, &["rad"], &["measured angle atan(rho_y / rho_z) in LiDAR axes"]),
     row(Sensor, "accelerometer.alpha_c_bc", Real, Vector(3), &["m/s2"],
         &["accelerometer reading, chaser body axes: the acceleration just after the epoch, or the mean since the last sample in axes as they are at this one"]),
     row(Sensor, "dcm_bc_n", Real, Matrix(3, 3), &["1"],
         &["attitude of the chaser at the epoch: direction cosine matrix from axes N to chaser body axes"]),
-    row(Sensor, "metrology.valid", Boolean, Scalar, &[],
+    valid(Of::Metrology, "metrology.valid",
         &["whether the metrology saw the target; if not, its measurement keeps the last values"]),
-    row(Sensor, "metrology.rho_lvlh", Real, Vector(3), &["m"],
+    rows(Of::Metrology, Measured(0), "metrology.rho_lvlh", Vector(3), &["m"],
         &["measured position of the chaser relative to the target, LVLH axes of the target"]),
-    row(Sensor, "metrology.rho_dot_lvlh", Real, Vector(3), &["m/s"],
+    rows(Of::Metrology, Measured(3), "metrology.rho_dot_lvlh", Vector(3), &["m/s"],
         &["measured rate of that position as seen in the turning LVLH axes"]),
     row(Sensor, "target_orbit.r", Real, Scalar, &["m"],
         &["distance of the target from the central body at the epoch, as known on board; with metrology"]),
@@ -181,18 +240,18 @@ pub const PORTS: &[Port] = &[
     row(Sensor, "accelerometer.valid", Boolean, Scalar, &[], &["whether the accelerometer measured at this epoch"]),
     row(Sensor, "accelerometer.mean", Boolean, Scalar, &[],
         &["whether its reading is the mean since its last sample rather than the instant after the epoch"]),
-    row(Sensor, "lidar.due", Boolean, Scalar, &[], &["whether the LiDAR samples at this epoch; due and not valid is a dropout"]),
-    row(Sensor, "metrology.due", Boolean, Scalar, &[], &["whether the metrology samples at this epoch"]),
-    row(Sensor, "camera.due", Boolean, Scalar, &[], &["whether the camera samples at this epoch"]),
-    row(Sensor, "camera.valid", Boolean, Scalar, &[],
+    due(Of::Lidar, "lidar.due", &["whether the LiDAR samples at this epoch; due and not valid is a dropout"]),
+    due(Of::Metrology, "metrology.due", &["whether the metrology samples at this epoch"]),
+    due(Of::Camera, "camera.due", &["whether the camera samples at this epoch"]),
+    valid(Of::Camera, "camera.valid",
         &["whether the camera saw the target; if not, its angles keep their last values"]),
-    row(Sensor, "camera.azimuth", Real, Scalar, &["rad"], &["measured angle atan(rho_x / rho_z) in LiDAR axes"]),
-    row(Sensor, "camera.elevation", Real, Scalar, &["rad"], &["measured angle atan(rho_y / rho_z) in LiDAR axes"]),
-    row(Sensor, "radio.due", Boolean, Scalar, &[], &["whether the radio link samples at this epoch"]),
-    row(Sensor, "radio.valid", Boolean, Scalar, &[],
+    rows(Of::Camera, Measured(0), "camera.azimuth", Scalar, &["rad"], &["measured angle atan(rho_x / rho_z) in LiDAR axes"]),
+    rows(Of::Camera, Measured(1), "camera.elevation", Scalar, &["rad"], &["measured angle atan(rho_y / rho_z) in LiDAR axes"]),
+    due(Of::Radio, "radio.due", &["whether the radio link samples at this epoch"]),
+    valid(Of::Radio, "radio.valid",
         &["whether the radio link measured; if not, range and rate keep their last values"]),
-    row(Sensor, "radio.range", Real, Scalar, &["m"], &["measured distance from chaser to target"]),
-    row(Sensor, "radio.range_rate", Real, Scalar, &["m/s"], &["measured rate of that distance"]),
+    rows(Of::Radio, Measured(0), "radio.range", Scalar, &["m"], &["measured distance from chaser to target"]),
+    rows(Of::Radio, Measured(1), "radio.range_rate", Scalar, &["m/s"], &["measured rate of that distance"]),
 
     row(Truth, "truth.r_tc_n", Real, Vector(3), &["m"], &["true position of the target relative to the chaser, axes N"]),
     row(Truth, "truth.v_tc_n", Real, Vector(3), &["m/s"], &["true velocity of the target relative to the chaser, axes N"]),
@@ -238,28 +297,28 @@ pub const PORTS: &[Port] = &[
         "standard deviation of the chaser's velocity; in the LVLH frame 0",
         "standard deviation of the accelerometer bias; in the LVLH frame 0",
     ]),
-    row(Estimate, "innov.range", Real, Scalar, &["m"], &["range, measured minus predicted"]),
-    row(Estimate, "innov.azimuth", Real, Scalar, &["rad"], &["azimuth, measured minus predicted"]),
-    row(Estimate, "innov.elevation", Real, Scalar, &["rad"], &["elevation, measured minus predicted"]),
-    row(Estimate, "innov.s", Real, Vector(3), &["m2", "rad2", "rad2"], &[
+    rows(Of::Lidar, Innovation(0), "innov.range", Scalar, &["m"], &["range, measured minus predicted"]),
+    rows(Of::Lidar, Innovation(1), "innov.azimuth", Scalar, &["rad"], &["azimuth, measured minus predicted"]),
+    rows(Of::Lidar, Innovation(2), "innov.elevation", Scalar, &["rad"], &["elevation, measured minus predicted"]),
+    rows(Of::Lidar, Variance(0), "innov.s", Vector(3), &["m2", "rad2", "rad2"], &[
         "predicted variance of the range's innovation", "predicted variance of the azimuth's innovation",
         "predicted variance of the elevation's innovation",
     ]),
-    row(Estimate, "innov.rho", Real, Vector(3), &["m"], &["relative position, measured minus predicted, LVLH of the target"]),
-    row(Estimate, "innov.rho_s", Real, Vector(3), &["m2"], &["predicted variance of that innovation"]),
-    row(Estimate, "innov.rho_dot", Real, Vector(3), &["m/s"], &["relative velocity, measured minus predicted, LVLH of the target"]),
-    row(Estimate, "innov.rho_dot_s", Real, Vector(3), &["m2/s2"], &["predicted variance of that innovation"]),
+    rows(Of::Metrology, Innovation(0), "innov.rho", Vector(3), &["m"], &["relative position, measured minus predicted, LVLH of the target"]),
+    rows(Of::Metrology, Variance(0), "innov.rho_s", Vector(3), &["m2"], &["predicted variance of that innovation"]),
+    rows(Of::Metrology, Innovation(3), "innov.rho_dot", Vector(3), &["m/s"], &["relative velocity, measured minus predicted, LVLH of the target"]),
+    rows(Of::Metrology, Variance(3), "innov.rho_dot_s", Vector(3), &["m2/s2"], &["predicted variance of that innovation"]),
     row(Estimate, "q.skipped", Integer, Scalar, &[], &["updates passed by because the adaptation window was singular"]),
     row(Estimate, "q.unsolved", Integer, Scalar, &[],
         &["updates at which the law's solver found no solution, so that the last process noise stayed"]),
-    row(Estimate, "innov.camera", Real, Vector(2), &["rad"], &[
+    rows(Of::Camera, Innovation(0), "innov.camera", Vector(2), &["rad"], &[
         "azimuth of the camera, measured minus predicted", "elevation of the camera, measured minus predicted",
     ]),
-    row(Estimate, "innov.camera_s", Real, Vector(2), &["rad2"], &["predicted variance of that innovation"]),
-    row(Estimate, "innov.radio", Real, Vector(2), &["m", "m/s"], &[
+    rows(Of::Camera, Variance(0), "innov.camera_s", Vector(2), &["rad2"], &["predicted variance of that innovation"]),
+    rows(Of::Radio, Innovation(0), "innov.radio", Vector(2), &["m", "m/s"], &[
         "range of the radio, measured minus predicted", "range rate of the radio, measured minus predicted",
     ]),
-    row(Estimate, "innov.radio_s", Real, Vector(2), &["m2", "m2/s2"], &["predicted variance of that innovation"]),
+    rows(Of::Radio, Variance(0), "innov.radio_s", Vector(2), &["m2", "m2/s2"], &["predicted variance of that innovation"]),
     row(Estimate, "cov.p", Real, Matrix(9, 9), COVARIANCE,
         &["covariance of r_tc, v_tc, a_t, in the LVLH frame of rho, rho_dot, d; 0 where a filter has no such state"]),
 ];
@@ -280,6 +339,45 @@ mod tests {
                 let fits = [0, 1, port.shape.len()].contains(&list.len()) || 3 * list.len() == port.shape.len();
                 assert!(fits, "{}", port.name);
             }
+        }
+    }
+
+    /// A sensor of which something is missing would be wired, scored or shown in part, and nobody would be told.
+    #[test]
+    fn every_sensor_of_the_target_has_all_its_ports() {
+        for sensor in Of::ALL {
+            let parts = || {
+                PORTS.iter().filter_map(move |port| match port.part {
+                    Some((of, part)) if of == sensor => Some((port, part)),
+                    _ => None,
+                })
+            };
+            for (part, suffix) in [(Part::Due, "due"), (Part::Valid, "valid")] {
+                let names: Vec<_> = parts().filter(|(_, p)| *p == part).map(|(port, _)| port.name).collect();
+                assert_eq!(names, [format!("{}.{suffix}", sensor.name())]);
+            }
+            let units = |wanted: fn(Part) -> Option<usize>| {
+                let mut found: Vec<_> = parts()
+                    .filter_map(|(port, part)| Some((wanted(part)?, port)))
+                    .flat_map(|(first, port)| (0..port.shape.len()).map(move |i| (first + i, port.unit(i))))
+                    .collect();
+                found.sort_unstable();
+                assert!(
+                    found.iter().enumerate().all(|(i, (row, _))| i == *row),
+                    "{sensor:?}: {found:?}"
+                );
+                found.into_iter().map(|(_, unit)| unit).collect::<Vec<_>>()
+            };
+            let expected: Vec<_> = sensor.quantities().map(|quantity| quantity.unit()).collect();
+            let squares: Vec<_> = (expected.iter())
+                .map(|unit| match *unit {
+                    "m" => "m2",
+                    "rad" => "rad2",
+                    _ => "m2/s2",
+                })
+                .collect();
+            let variance = units(|part| if let Variance(first) = part { Some(first) } else { None });
+            assert_eq!(variance, squares, "{sensor:?}");
         }
     }
 

@@ -1,8 +1,11 @@
 //! What the truth hands to the filter: one struct, whose places the sensor ports name.
 
+use std::ops::{Index, IndexMut};
+
 use serde::{Deserialize, Serialize};
 
-use crate::ports::{Port, Role, of};
+use crate::mission::Sensor;
+use crate::ports::{Part, Port, Role, of};
 
 /// The newest sensor sample and the initial estimate, SI and radians; matrices row by row.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -11,22 +14,8 @@ pub struct Signals {
     pub sample_time: f64,
     /// `sample_count`.
     pub sample_count: i32,
-    /// `lidar.due` and `lidar.valid`.
-    pub lidar: Seen,
-    /// `lidar.range` (m), `lidar.azimuth`, `lidar.elevation` (rad).
-    pub lidar_z: [f64; 3],
-    /// `camera.due` and `camera.valid`.
-    pub camera: Seen,
-    /// `camera.azimuth`, `camera.elevation`, rad.
-    pub camera_z: [f64; 2],
-    /// `radio.due` and `radio.valid`.
-    pub radio: Seen,
-    /// `radio.range` (m), `radio.range_rate` (m/s).
-    pub radio_z: [f64; 2],
-    /// `metrology.due` and `metrology.valid`.
-    pub metrology: Seen,
-    /// `metrology.rho_lvlh` (m), then `metrology.rho_dot_lvlh` (m/s).
-    pub metrology_z: [f64; 6],
+    /// What each sensor of the target says, in the order of [`Sensor::ALL`].
+    pub sensors: [Seen; Sensor::COUNT],
     /// `target_orbit.*`: distance, its rate, angular momentum, inclination, argument of latitude.
     pub target_orbit: [f64; 5],
     /// `accelerometer.valid`.
@@ -41,13 +30,29 @@ pub struct Signals {
     pub nav_init: [f64; 18],
 }
 
-/// Whether a sensor of the target samples at the epoch, and whether it saw the target.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+/// What a sensor of the target says at an epoch.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Seen {
-    /// It samples.
+    /// Whether it samples.
     pub due: bool,
-    /// It saw.
+    /// Whether it saw the target; if not, `z` keeps the last values.
     pub valid: bool,
+    /// What it measured, SI and radians; rows beyond its own are 0.
+    pub z: [f64; Sensor::MOST_ROWS],
+}
+
+impl Index<Sensor> for Signals {
+    type Output = Seen;
+
+    fn index(&self, sensor: Sensor) -> &Seen {
+        &self.sensors[sensor as usize]
+    }
+}
+
+impl IndexMut<Sensor> for Signals {
+    fn index_mut(&mut self, sensor: Sensor) -> &mut Seen {
+        &mut self.sensors[sensor as usize]
+    }
 }
 
 impl Default for Signals {
@@ -56,19 +61,12 @@ impl Default for Signals {
     fn default() -> Self {
         let unsaid = Seen {
             due: true,
-            valid: false,
+            ..Seen::default()
         };
         Self {
             sample_time: 0.0,
             sample_count: 0,
-            lidar: unsaid,
-            lidar_z: [0.0; 3],
-            camera: unsaid,
-            camera_z: [0.0; 2],
-            radio: unsaid,
-            radio_z: [0.0; 2],
-            metrology: unsaid,
-            metrology_z: [0.0; 6],
+            sensors: [unsaid; Sensor::COUNT],
             target_orbit: [0.0; 5],
             accelerometer_valid: true,
             accelerometer_mean: false,
@@ -79,68 +77,117 @@ impl Default for Signals {
     }
 }
 
-/// Where a port's values stand in [`Signals`].
-#[derive(Debug, Clone, Copy)]
+/// Where a port's values stand in [`Signals`]. One that is read as another type than its own is empty, false or 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Slot {
+    /// The epoch.
+    Time,
+    /// Its ordinal.
+    Count,
+    /// Whether a sensor samples.
+    Due(Sensor),
+    /// Whether it saw the target.
+    Valid(Sensor),
+    /// Rows of what it measured: the first and their number.
+    Rows(Sensor, usize, usize),
+    /// One number of the target's orbit.
+    TargetOrbit(usize),
+    /// Whether the accelerometer measured.
+    AccelerometerValid,
+    /// Whether it measured the mean.
+    AccelerometerMean,
+    /// Its reading.
+    Alpha,
+    /// The attitude.
+    Attitude,
+    /// The initial estimate.
+    NavInit,
+}
+
+impl Slot {
     /// Real elements.
-    Real(fn(&Signals) -> &[f64], fn(&mut Signals) -> &mut [f64]),
-    /// A whole number.
-    Integer(fn(&Signals) -> i32, fn(&mut Signals, i32)),
+    pub fn reals(self, s: &Signals) -> &[f64] {
+        match self {
+            Self::Time => std::slice::from_ref(&s.sample_time),
+            Self::Rows(sensor, first, count) => &s[sensor].z[first..first + count],
+            Self::TargetOrbit(place) => &s.target_orbit[place..=place],
+            Self::Alpha => &s.alpha_c_bc,
+            Self::Attitude => &s.dcm_bc_n,
+            Self::NavInit => &s.nav_init,
+            Self::Count | Self::Due(_) | Self::Valid(_) | Self::AccelerometerValid | Self::AccelerometerMean => &[],
+        }
+    }
+
+    /// Real elements, to be written.
+    pub fn reals_mut(self, s: &mut Signals) -> &mut [f64] {
+        match self {
+            Self::Time => std::slice::from_mut(&mut s.sample_time),
+            Self::Rows(sensor, first, count) => &mut s[sensor].z[first..first + count],
+            Self::TargetOrbit(place) => &mut s.target_orbit[place..=place],
+            Self::Alpha => &mut s.alpha_c_bc,
+            Self::Attitude => &mut s.dcm_bc_n,
+            Self::NavInit => &mut s.nav_init,
+            Self::Count | Self::Due(_) | Self::Valid(_) | Self::AccelerometerValid | Self::AccelerometerMean => &mut [],
+        }
+    }
+
     /// A truth value.
-    Boolean(fn(&Signals) -> bool, fn(&mut Signals, bool)),
-}
+    pub fn boolean(self, s: &Signals) -> bool {
+        match self {
+            Self::Due(sensor) => s[sensor].due,
+            Self::Valid(sensor) => s[sensor].valid,
+            Self::AccelerometerValid => s.accelerometer_valid,
+            Self::AccelerometerMean => s.accelerometer_mean,
+            _ => false,
+        }
+    }
 
-/// A place, named once and read and written through it.
-macro_rules! real {
-    ($field:ident) => {
-        Slot::Real(|s| &s.$field[..], |s| &mut s.$field[..])
-    };
-    ($field:ident, $range:expr) => {
-        Slot::Real(|s| &s.$field[$range], |s| &mut s.$field[$range])
-    };
-}
+    /// Sets a truth value.
+    pub fn set_boolean(self, s: &mut Signals, value: bool) {
+        match self {
+            Self::Due(sensor) => s[sensor].due = value,
+            Self::Valid(sensor) => s[sensor].valid = value,
+            Self::AccelerometerValid => s.accelerometer_valid = value,
+            Self::AccelerometerMean => s.accelerometer_mean = value,
+            _ => (),
+        }
+    }
 
-macro_rules! one {
-    ($kind:ident, $($field:ident).+) => {
-        Slot::$kind(|s| s.$($field).+, |s, value| s.$($field).+ = value)
-    };
+    /// A whole number.
+    pub fn integer(self, s: &Signals) -> i32 {
+        if self == Self::Count { s.sample_count } else { 0 }
+    }
+
+    /// Sets a whole number.
+    pub fn set_integer(self, s: &mut Signals, value: i32) {
+        if self == Self::Count {
+            s.sample_count = value;
+        }
+    }
 }
 
 /// Where the values of a sensor port stand; `None` for a port of another role.
 pub fn slot(port: &Port) -> Option<Slot> {
+    match port.part {
+        Some((sensor, Part::Due)) => return Some(Slot::Due(sensor)),
+        Some((sensor, Part::Valid)) => return Some(Slot::Valid(sensor)),
+        Some((sensor, Part::Measured(first))) => return Some(Slot::Rows(sensor, first, port.shape.len())),
+        Some((_, Part::Innovation(_) | Part::Variance(_))) => return None,
+        None => (),
+    }
     Some(match port.name {
-        "sample_time" => Slot::Real(
-            |s| std::slice::from_ref(&s.sample_time),
-            |s| std::slice::from_mut(&mut s.sample_time),
-        ),
-        "sample_count" => one!(Integer, sample_count),
-        "lidar.due" => one!(Boolean, lidar.due),
-        "lidar.valid" => one!(Boolean, lidar.valid),
-        "lidar.range" => real!(lidar_z, 0..1),
-        "lidar.azimuth" => real!(lidar_z, 1..2),
-        "lidar.elevation" => real!(lidar_z, 2..3),
-        "camera.due" => one!(Boolean, camera.due),
-        "camera.valid" => one!(Boolean, camera.valid),
-        "camera.azimuth" => real!(camera_z, 0..1),
-        "camera.elevation" => real!(camera_z, 1..2),
-        "radio.due" => one!(Boolean, radio.due),
-        "radio.valid" => one!(Boolean, radio.valid),
-        "radio.range" => real!(radio_z, 0..1),
-        "radio.range_rate" => real!(radio_z, 1..2),
-        "metrology.due" => one!(Boolean, metrology.due),
-        "metrology.valid" => one!(Boolean, metrology.valid),
-        "metrology.rho_lvlh" => real!(metrology_z, 0..3),
-        "metrology.rho_dot_lvlh" => real!(metrology_z, 3..6),
-        "target_orbit.r" => real!(target_orbit, 0..1),
-        "target_orbit.r_dot" => real!(target_orbit, 1..2),
-        "target_orbit.h" => real!(target_orbit, 2..3),
-        "target_orbit.inclination" => real!(target_orbit, 3..4),
-        "target_orbit.argument_of_latitude" => real!(target_orbit, 4..5),
-        "accelerometer.valid" => one!(Boolean, accelerometer_valid),
-        "accelerometer.mean" => one!(Boolean, accelerometer_mean),
-        "accelerometer.alpha_c_bc" => real!(alpha_c_bc),
-        "dcm_bc_n" => real!(dcm_bc_n),
-        "nav_init.x" => real!(nav_init),
+        "sample_time" => Slot::Time,
+        "sample_count" => Slot::Count,
+        "target_orbit.r" => Slot::TargetOrbit(0),
+        "target_orbit.r_dot" => Slot::TargetOrbit(1),
+        "target_orbit.h" => Slot::TargetOrbit(2),
+        "target_orbit.inclination" => Slot::TargetOrbit(3),
+        "target_orbit.argument_of_latitude" => Slot::TargetOrbit(4),
+        "accelerometer.valid" => Slot::AccelerometerValid,
+        "accelerometer.mean" => Slot::AccelerometerMean,
+        "accelerometer.alpha_c_bc" => Slot::Alpha,
+        "dcm_bc_n" => Slot::Attitude,
+        "nav_init.x" => Slot::NavInit,
         _ => return None,
     })
 }
@@ -158,32 +205,32 @@ mod tests {
     #[test]
     fn every_sensor_port_has_a_place_of_its_own_and_of_its_size() {
         assert_eq!(slots().count(), of(Role::Sensor).count());
+        let same = |slot: Slot, a: &Signals, b: &Signals| {
+            slot.reals(a) == slot.reals(b) && slot.boolean(a) == slot.boolean(b) && slot.integer(a) == slot.integer(b)
+        };
         for (port, slot) in slots() {
             let mut changed = Signals::default();
-            match slot {
-                Slot::Real(get, get_mut) => {
-                    assert_eq!(
-                        (port.kind, get(&changed).len()),
-                        (Kind::Real, port.shape.len()),
-                        "{}",
-                        port.name
-                    );
-                    get_mut(&mut changed).fill(0.625);
-                }
-                Slot::Integer(_, set) => set(&mut changed, 7),
-                Slot::Boolean(get, set) => {
-                    let value = get(&changed);
-                    set(&mut changed, !value);
+            match port.kind {
+                Kind::Integer => slot.set_integer(&mut changed, 7),
+                Kind::Boolean => slot.set_boolean(&mut changed, !slot.boolean(&Signals::default())),
+                _ => {
+                    assert_eq!(slot.reals(&changed).len(), port.shape.len(), "{}", port.name);
+                    slot.reals_mut(&mut changed).fill(0.625);
                 }
             }
             assert_ne!(changed, Signals::default(), "{}", port.name);
+            assert!(
+                !same(slot, &changed, &Signals::default()),
+                "{} is read where it was written",
+                port.name
+            );
             for (other, theirs) in slots().filter(|(other, _)| other.name != port.name) {
-                let same = match theirs {
-                    Slot::Real(get, _) => get(&changed) == get(&Signals::default()),
-                    Slot::Integer(get, _) => get(&changed) == get(&Signals::default()),
-                    Slot::Boolean(get, _) => get(&changed) == get(&Signals::default()),
-                };
-                assert!(same, "{} moves {}", port.name, other.name);
+                assert!(
+                    same(theirs, &changed, &Signals::default()),
+                    "{} moves {}",
+                    port.name,
+                    other.name
+                );
             }
         }
     }

@@ -1,5 +1,6 @@
 //! Mission files: what comes with the project reads, and what is wrong is named with its place.
 
+use interface::Sensor;
 use interface::mission::{Document, EMBEDDED, First, Gravity, Mission, MissionError, embedded, schema};
 
 const LEO: &str = include_str!("../../../missions/leo_venting.toml");
@@ -208,8 +209,9 @@ fn the_filter_is_told_its_own_gravity_and_the_sensors_noise() {
     assert!(matches!(told.gravity, Gravity::Zonal(_)));
     assert!((told.p0.position - 1e-2).abs() < 1e-18 && (told.p0.acceleration - 1.5e-6).abs() < 1e-20);
     let own = embedded("leo_venting").unwrap().mission().unwrap().navigation();
-    let lidar = own.lidar.unwrap();
-    assert!((lidar.sigma_angle_rad - 0.04_f64.to_radians()).abs() < 1e-18 && (lidar.period_s - 1.0).abs() < 1e-15);
+    let lidar = own.sensor(Sensor::Lidar).unwrap();
+    let expected = [0.08, 0.04_f64.to_radians(), 0.04_f64.to_radians()];
+    assert!(lidar.deviations().eq(expected) && (lidar.period_s - 1.0).abs() < 1e-15);
     assert!(own.told.is_empty());
 }
 

@@ -45,10 +45,8 @@ pub enum Source {
     VentSize = 15,
     /// Directions of the vents of a named kind.
     VentDirection = 16,
-    /// Camera angle noise.
-    Camera = 17,
-    /// Radio range and range-rate noise.
-    Radio = 18,
+    /// Noise of a named sensor of the target.
+    SensorNoise = 17,
 }
 
 /// Generator for one cause of randomness in one run; equal arguments give equal streams.

@@ -1,6 +1,20 @@
 //! Camera: two angles to the target, in the axes L of the LiDAR ([`crate::lidar`]).
 
-use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
+use crate::of_target::{ByState, OfTarget, Rows, Scene};
+use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};
+
+/// The camera among the sensors of the target.
+pub struct Camera;
+
+impl OfTarget for Camera {
+    fn measure(&self, scene: &Scene) -> Rows {
+        measure(&(scene.dcm_l_n * scene.r_tc_n)).fixed_resize(0.0)
+    }
+
+    fn jacobian(&self, scene: &Scene) -> ByState {
+        jacobian(&scene.r_tc_n, &scene.dcm_l_n).fixed_resize(0.0)
+    }
+}
 
 /// Azimuth and elevation of a target.
 ///
@@ -27,18 +41,9 @@ pub fn jacobian(r_tc_n: &Vector3<f64>, dcm_l_n: &Matrix3<f64>) -> Matrix2x3<f64>
     Matrix2x3::from_rows(&[azimuth * dcm_l_n, elevation * dcm_l_n])
 }
 
-/// Covariance of the measurement noise.
-///
-/// * `sigma_angle`: rad, for both angles.
-/// * returns: diagonal 2x2, rad2, rows as in [`measure`].
-pub fn covariance(sigma_angle: f64) -> Matrix2<f64> {
-    Matrix2::from_diagonal_element(sigma_angle * sigma_angle)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lidar;
     use astro::frames;
     use proptest::prelude::*;
 
@@ -50,13 +55,6 @@ mod tests {
             let expected = Vector2::new(std::f64::consts::FRAC_PI_4, -0.463_647_609_000_806_1);
             assert!((z - expected).amax() < 1e-15, "{z}");
         }
-    }
-
-    #[test]
-    fn covariance_is_that_of_either_angle() {
-        assert!((covariance(0.25) - Matrix2::new(0.0625, 0.0, 0.0, 0.0625)).amax() < 1e-16);
-        let of_lidar = lidar::covariance(0.5, 0.25);
-        assert!((covariance(0.25) - of_lidar.fixed_view::<2, 2>(1, 1)).amax() < 1e-16);
     }
 
     proptest! {

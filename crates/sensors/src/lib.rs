@@ -8,8 +8,12 @@ pub mod camera;
 pub mod lidar;
 pub mod metrology;
 mod noise;
+mod of_target;
 pub mod radio;
+mod registry;
 mod view;
 
 pub use noise::normal3;
+pub use of_target::{ByState, OfTarget, Rows, Scene};
+pub use registry::of;
 pub use view::View;

@@ -4,7 +4,21 @@
 //! (`astro::frames::lidar_from_body` places them in the body).
 
 use crate::camera;
+use crate::of_target::{ByState, OfTarget, Rows, Scene};
 use nalgebra::{Matrix3, Vector3};
+
+/// The LiDAR among the sensors of the target.
+pub struct Lidar;
+
+impl OfTarget for Lidar {
+    fn measure(&self, scene: &Scene) -> Rows {
+        measure(&(scene.dcm_l_n * scene.r_tc_n)).fixed_resize(0.0)
+    }
+
+    fn jacobian(&self, scene: &Scene) -> ByState {
+        jacobian(&scene.r_tc_n, &scene.dcm_l_n).fixed_resize(0.0)
+    }
+}
 
 /// Range, azimuth and elevation of a target.
 ///
@@ -34,16 +48,6 @@ pub fn jacobian(r_tc_n: &Vector3<f64>, dcm_l_n: &Matrix3<f64>) -> Matrix3<f64> {
     ])
 }
 
-/// Covariance of the measurement noise.
-///
-/// * `sigma_range`: m; `sigma_angle`: rad, for both angles.
-/// * returns: diagonal 3x3, m2 and rad2, rows as in [`measure`].
-///
-/// Source: Mamich and Zanetti, R_1 in Eq. (30).
-pub fn covariance(sigma_range: f64, sigma_angle: f64) -> Matrix3<f64> {
-    Matrix3::from_diagonal(&Vector3::new(sigma_range, sigma_angle, sigma_angle).map(|sigma| sigma * sigma))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -56,12 +60,6 @@ mod tests {
         let z = measure(&Vector3::new(2.0, 1.0, 2.0));
         let expected = Vector3::new(3.0, std::f64::consts::FRAC_PI_4, 0.463_647_609_000_806_1);
         assert!((z - expected).amax() < 1e-15, "{z}");
-    }
-
-    #[test]
-    fn covariance_squares_each_channel() {
-        let r = covariance(0.5, 0.25);
-        assert!((r - Matrix3::from_diagonal(&Vector3::new(0.25, 0.0625, 0.0625))).amax() < 1e-16);
     }
 
     proptest! {

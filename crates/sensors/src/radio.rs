@@ -5,7 +5,21 @@
 //! functions therefore take the relative velocity of the state as it stands, inertial or, in the three-body problem, relative
 //! to the rotating axes; the Jacobian is that by this velocity and needs no term for the turning either.
 
-use nalgebra::{Matrix2, Matrix2x6, Vector2, Vector3};
+use crate::of_target::{ByState, OfTarget, Rows, Scene};
+use nalgebra::{Matrix2x6, Vector2, Vector3};
+
+/// The radio link among the sensors of the target.
+pub struct Radio;
+
+impl OfTarget for Radio {
+    fn measure(&self, scene: &Scene) -> Rows {
+        measure(&scene.r_tc_n, &scene.v_tc_n).fixed_resize(0.0)
+    }
+
+    fn jacobian(&self, scene: &Scene) -> ByState {
+        jacobian(&scene.r_tc_n, &scene.v_tc_n).fixed_resize(0.0)
+    }
+}
 
 /// Range and range rate of a target.
 ///
@@ -35,14 +49,6 @@ pub fn jacobian(r_tc_n: &Vector3<f64>, v_tc_n: &Vector3<f64>) -> Matrix2x6<f64> 
     h
 }
 
-/// Covariance of the measurement noise.
-///
-/// * `sigma_range`: m; `sigma_range_rate`: m/s.
-/// * returns: diagonal 2x2, m2 and m2/s2, rows as in [`measure`].
-pub fn covariance(sigma_range: f64, sigma_range_rate: f64) -> Matrix2<f64> {
-    Matrix2::from_diagonal(&Vector2::new(sigma_range, sigma_range_rate).map(|sigma| sigma * sigma))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -57,11 +63,6 @@ mod tests {
         let z = measure(&(sight * 5.0), &(Vector3::new(-0.8, 0.0, 0.6) * 10.0 - sight));
         assert!((z - Vector2::new(5.0, -1.0)).amax() < 1e-14, "{z}");
         assert!(measure(&Vector3::zeros(), &Vector3::x())[1].is_nan());
-    }
-
-    #[test]
-    fn covariance_squares_each_channel() {
-        assert!((covariance(0.5, 0.25) - Matrix2::new(0.25, 0.0, 0.0, 0.0625)).amax() < 1e-16);
     }
 
     /// The rate as a time derivative: range along a straight line in inertial axes, seen from axes that turn.

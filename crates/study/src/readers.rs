@@ -6,8 +6,9 @@ use nalgebra::{SMatrix, Vector3};
 use crate::error::StudyError;
 use crate::participant::Participant;
 use crate::samples::{Estimate, StatusItems, TruthSample};
-use crate::world::{Frame, Innovation, MEASURED};
+use crate::world::{Frame, Innovation};
 use interface::Status;
+use interface::ports::{PORTS, Part};
 
 type VectorHandle = Handle<[f64; 3]>;
 
@@ -54,6 +55,9 @@ impl TruthReader {
             Some([r, v]) => Some([vector(r)?, vector(v)?]),
             None => None,
         };
+        // Of which each says that a sensor measured the target; a truth has those of its sensors.
+        let valid = PORTS.iter().filter(|port| matches!(port.part, Some((_, Part::Valid))));
+        let measured = valid.filter_map(|port| body.boolean(port.name).ok()).collect();
         Ok(Self {
             head: head.sample(),
             count,
@@ -63,7 +67,7 @@ impl TruthReader {
             acceleration: body.vec3(signals.acceleration[0]).ok(),
             bias: signals.bias.and_then(|[name, _]| body.vec3(name).ok()),
             chaser,
-            measured: MEASURED.iter().filter_map(|name| body.boolean(name).ok()).collect(),
+            measured,
             body: body.sample(),
         })
     }

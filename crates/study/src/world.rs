@@ -91,9 +91,6 @@ pub struct Innovation {
     pub variance: &'static str,
 }
 
-/// Booleans of the truth of which each says that a sensor measured the target; a truth has those of its sensors.
-pub(crate) const MEASURED: [&str; 4] = ["lidar.valid", "camera.valid", "radio.valid", "metrology.valid"];
-
 const INERTIAL: Signals = Signals {
     position: ["truth.r_tc_n", "est.r_tc_n"],
     velocity: ["truth.v_tc_n", "est.v_tc_n"],

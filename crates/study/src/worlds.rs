@@ -114,12 +114,7 @@ impl World {
             (_, Frame::Inertial, Some(p)) => Axes::RtnRotating(Cr3bpSystem::new(p.mass_ratio, p.length_m, p.time_s)?),
             (Some(ResultAxes::Rtn | ResultAxes::Lvlh) | None, Frame::Inertial, None) => Axes::Rtn,
         };
-        let rows = [
-            told.lidar.map(|_| 3),
-            told.camera.map(|_| 2),
-            told.radio.map(|_| 2),
-            told.metrology.map(|_| 6),
-        ];
+        let periods = mission.sensors.periods(mission.time.sample_period_s);
         let filters = mission.study.filters.iter().map(|label| {
             label.parse::<FilterChoice>().map_err(|problem| StudyError::Filters {
                 mission: mission.name.clone(),
@@ -132,35 +127,19 @@ impl World {
             reference: mission.reference.clone(),
             duration_s: mission.time.duration_s,
             scored_from_s: mission.time.scored_from_s,
-            sample_period_s: grid(&periods(&mission)).ok_or_else(|| StudyError::NoGrid {
+            sample_period_s: grid(&periods).ok_or_else(|| StudyError::NoGrid {
                 mission: mission.name.clone(),
-                periods: periods(&mission),
+                periods,
             })?,
             frame,
             axes,
-            nis_rows: rows.iter().flatten().sum(),
+            nis_rows: told.sensors.iter().map(|known| known.sensor.rows() as u32).sum(),
             filters: filters.collect::<Result<_, _>>()?,
             notes: mission.notes(),
             mission_file: None,
             mission,
         })
     }
-}
-
-/// Time between the samples of each sensor on board, s.
-fn periods(mission: &Mission) -> Vec<f64> {
-    let sensors = &mission.sensors;
-    [
-        sensors.lidar.map(|s| s.period_s),
-        sensors.camera.map(|s| s.period_s),
-        sensors.radio.map(|s| s.period_s),
-        sensors.metrology.map(|s| s.period_s),
-        sensors.accelerometer.map(|s| s.period_s),
-    ]
-    .into_iter()
-    .flatten()
-    .map(|own| own.unwrap_or(mission.time.sample_period_s))
-    .collect()
 }
 
 /// The longest time of which every period is a whole multiple; `None` where that is below a millisecond, since a master that

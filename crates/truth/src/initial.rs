@@ -16,7 +16,8 @@ pub(crate) fn draw_measurement(run: &Run, sigma: &InitialSigma, relative: &Relat
     let mut rng = stream(run.study_seed, run.run, Source::InitialError);
     let unit = metrology::measure(&normal3(&mut rng), &normal3(&mut rng));
     let truth = metrology::measure(&relative.rho_lvlh, &relative.rho_dot_lvlh);
-    let measured = truth + unit.component_mul(&metrology::deviations(sigma.position, sigma.velocity));
+    let deviations = metrology::measure(&Vector3::repeat(sigma.position), &Vector3::repeat(sigma.velocity));
+    let measured = truth + unit.component_mul(&deviations);
     measured.fixed_resize(0.0)
 }
 

@@ -33,7 +33,7 @@ pub use disturbances::profiles;
 pub use error::TruthError;
 pub use overrides::{Forces, OWN, PARAMETERS, Parameter, Params};
 pub use relative::Relative;
-pub use sampling::{AccelerometerSample, CameraSample, LidarSample, MetrologySample, RadioSample, SensorSample};
+pub use sampling::{AccelerometerSample, SensorSample};
 pub use simulation::{Inputs, Moment, Simulation};
 pub use timeline::{Event, Push, Side, Thrust, Timeline, Turning, Vector};
 pub use vehicles::Vehicles;

@@ -1,7 +1,10 @@
 //! The parameters of a run, named as in the FMU: what a user sets goes before what the mission file states.
 
-use interface::Bound;
+use std::borrow::Cow;
+use std::sync::LazyLock;
+
 use interface::mission::{Choice, Mission, embedded};
+use interface::{Bound, Sensor};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -126,7 +129,7 @@ impl Params {
                     let name = if row.len > 1 {
                         format!("{}[{element}]", row.name)
                     } else {
-                        row.name.to_owned()
+                        row.name.to_string()
                     };
                     return Err(TruthError::Parameter {
                         name,
@@ -136,7 +139,7 @@ impl Params {
                 }
             }
             if !(row.own && values.iter().all(|v| *v == OWN)) {
-                (row.apply)(&mut run, values);
+                row.apply(&mut run, values);
             }
         }
         Ok(run)
@@ -202,10 +205,10 @@ impl Forces {
 pub const OWN: f64 = -1.0;
 
 /// One real parameter: the row from which the FMU's variable, its check, its default and its effect are made.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Parameter {
     /// Name of the FMI variable; without `[i]` if it is a vector.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Unit; empty for a plain number.
     pub unit: &'static str,
     /// Number of elements.
@@ -217,13 +220,34 @@ pub struct Parameter {
     /// Whether [`OWN`], the start value then, means the mission's own value.
     pub own: bool,
     /// Meaning, one line.
-    pub about: &'static str,
-    apply: fn(&mut Run, &[f64]),
+    pub about: Cow<'static, str>,
+    effect: Effect,
+}
+
+/// What a parameter changes.
+#[derive(Debug, Clone, Copy)]
+enum Effect {
+    /// Anything of a run.
+    Run(fn(&mut Run, &[f64])),
+    /// A number of a sensor of the target, by its key, where that is on board.
+    Sensor(Sensor, &'static str),
 }
 
 impl Parameter {
     fn allows(&self, value: f64) -> bool {
         self.bound.allows(value) || (self.own && value == OWN)
+    }
+
+    fn apply(&self, run: &mut Run, values: &[f64]) {
+        match self.effect {
+            Effect::Run(apply) => apply(run, values),
+            Effect::Sensor(sensor, key) => {
+                let sigma = sensor.sigmas().iter().find(|sigma| sigma.key == key);
+                if let (Some(place), Some(&value)) = (run.mission.sensors.place(sensor, key), values.first()) {
+                    *place = sigma.map_or(value, |sigma| sigma.quantity.from_si(value));
+                }
+            }
+        }
     }
 
     fn words(&self) -> String {
@@ -245,22 +269,22 @@ const fn own(
     apply: fn(&mut Run, &[f64]),
 ) -> Parameter {
     Parameter {
-        name,
+        name: Cow::Borrowed(name),
         unit,
         len: 1,
         start: OWN,
         bound,
         own: true,
-        about,
-        apply,
+        about: Cow::Borrowed(about),
+        effect: Effect::Run(apply),
     }
 }
 
-/// Changes a sensor where it is on board.
-macro_rules! sensor {
-    ($sensor:ident, |$s:ident, $v:ident| $body:expr) => {
+/// Changes the accelerometer where it is on board.
+macro_rules! accelerometer {
+    (|$s:ident, $v:ident| $body:expr) => {
         |run, v| {
-            if let (Some($s), Some(&$v)) = (&mut run.mission.sensors.$sensor, v.first()) {
+            if let (Some($s), Some(&$v)) = (&mut run.mission.sensors.accelerometer, v.first()) {
                 $body;
             }
         }
@@ -281,45 +305,42 @@ macro_rules! mission {
 
 use Bound::{Any, AtLeast, Fraction, NonNegative, Positive};
 
-/// Every real parameter, in the order of the FMU's variables.
+/// Every real parameter, in the order of the FMU's variables: those of the sensors of the target stand last.
+pub static PARAMETERS: LazyLock<Vec<Parameter>> = LazyLock::new(|| {
+    GENERAL
+        .iter()
+        .cloned()
+        .chain(Sensor::ALL.into_iter().flat_map(of_sensor))
+        .collect()
+});
+
+/// Those that are no sensor's.
 #[rustfmt::skip]
-pub const PARAMETERS: &[Parameter] = &[
+const GENERAL: &[Parameter] = &[
     own("sample_period", "s", AtLeast(1e-3),
         "sensor sampling of every sensor without a period of its own: sample k is taken at the start time plus k periods",
         mission!(|m, v| m.time.sample_period_s = v)),
-    Parameter { name: "vent.scale", unit: "", len: 1, start: 1.0, bound: NonNegative, own: false,
-        about: "multiplies every vent magnitude; 0 switches vents off",
-        apply: |run, v| run.vent_scale = v.first().copied().unwrap_or(1.0) },
-    own("lidar.sigma_range", "m", NonNegative, "standard deviation of the range noise per sample; 0: noise-free",
-        sensor!(lidar, |s, v| s.sigma_range_m = v)),
-    own("lidar.sigma_angle", "rad", NonNegative,
-        "standard deviation of the azimuth and elevation noise per sample; 0: noise-free",
-        sensor!(lidar, |s, v| s.sigma_angle_deg = v.to_degrees())),
-    own("lidar.dropout_probability", "", Fraction, "probability that a LiDAR sample is missing",
-        sensor!(lidar, |s, v| s.dropout_probability = v)),
-    own("lidar.outlier_probability", "", Fraction, "probability that a LiDAR sample is an outlier",
-        sensor!(lidar, |s, v| s.outlier_probability = v)),
-    own("lidar.outlier_scale", "", NonNegative,
-        "noise of an outlier in multiples of the standard deviation, on range and both angles",
-        sensor!(lidar, |s, v| s.outlier_scale = v)),
+    Parameter { name: Cow::Borrowed("vent.scale"), unit: "", len: 1, start: 1.0, bound: NonNegative, own: false,
+        about: Cow::Borrowed("multiplies every vent magnitude; 0 switches vents off"),
+        effect: Effect::Run(|run, v| run.vent_scale = v.first().copied().unwrap_or(1.0)) },
     own("accelerometer.sigma", "m/s2", NonNegative, "standard deviation of the noise per sample and axis; 0: noise-free",
-        sensor!(accelerometer, |s, v| s.sigma_m_s2 = v)),
+        accelerometer!(|s, v| s.sigma_m_s2 = v)),
     own("accelerometer.bias0", "m/s2", AtLeast(-0.5), "bias at the start time, on each body axis",
-        sensor!(accelerometer, |s, v| s.bias0_m_s2 = [v; 3])),
+        accelerometer!(|s, v| s.bias0_m_s2 = [v; 3])),
     own("accelerometer.bias_sigma", "m/s2", NonNegative,
         "standard deviation that the bias walk gains in 1 s; grows with the square root of time",
-        sensor!(accelerometer, |s, v| s.bias_sigma_m_s2 = v)),
+        accelerometer!(|s, v| s.bias_sigma_m_s2 = v)),
     own("accelerometer.bias_time_constant", "s", Positive, "time constant with which the bias decays",
-        sensor!(accelerometer, |s, v| s.bias_time_constant_s = v)),
-    Parameter { name: "target_burn.start", unit: "s", len: 1, start: 0.0, bound: NonNegative, own: false,
-        about: "begin of a manoeuvre of the target that the filter is not told of, counted from the start time",
-        apply: |run, v| run.target_burn.start = v.first().copied().unwrap_or_default() },
-    Parameter { name: "target_burn.duration", unit: "s", len: 1, start: 0.0, bound: NonNegative, own: false,
-        about: "length of that manoeuvre; 0: none",
-        apply: |run, v| run.target_burn.duration = v.first().copied().unwrap_or_default() },
-    Parameter { name: "target_burn.a_t_n", unit: "m/s2", len: 3, start: 0.0, bound: Any, own: false,
-        about: "acceleration of the target in that manoeuvre, axes N",
-        apply: |run, v| if let &[x, y, z] = v { run.target_burn.a_t_n = Vector3::new(x, y, z) } },
+        accelerometer!(|s, v| s.bias_time_constant_s = v)),
+    Parameter { name: Cow::Borrowed("target_burn.start"), unit: "s", len: 1, start: 0.0, bound: NonNegative, own: false,
+        about: Cow::Borrowed("begin of a manoeuvre of the target that the filter is not told of, counted from the start time"),
+        effect: Effect::Run(|run, v| run.target_burn.start = v.first().copied().unwrap_or_default()) },
+    Parameter { name: Cow::Borrowed("target_burn.duration"), unit: "s", len: 1, start: 0.0, bound: NonNegative, own: false,
+        about: Cow::Borrowed("length of that manoeuvre; 0: none"),
+        effect: Effect::Run(|run, v| run.target_burn.duration = v.first().copied().unwrap_or_default()) },
+    Parameter { name: Cow::Borrowed("target_burn.a_t_n"), unit: "m/s2", len: 3, start: 0.0, bound: Any, own: false,
+        about: Cow::Borrowed("acceleration of the target in that manoeuvre, axes N"),
+        effect: Effect::Run(|run, v| if let &[x, y, z] = v { run.target_burn.a_t_n = Vector3::new(x, y, z) }) },
     own("nav_init.sigma_position", "m", NonNegative,
         "initial position error of one vehicle (formation: of chaser minus target), standard deviation per axis",
         mission!(|m, v| m.initial_error.sigma_position_m = Some(v))),
@@ -332,45 +353,48 @@ pub const PARAMETERS: &[Parameter] = &[
     own("nav_init.sigma_bias", "m/s2", NonNegative,
         "initial error of the accelerometer bias, standard deviation per axis; no effect in formation",
         mission!(|m, v| m.initial_error.sigma_bias_m_s2 = Some(v))),
-    own("metrology.sigma_position", "m", NonNegative,
-        "standard deviation of the relative position noise per sample and axis; 0: noise-free",
-        sensor!(metrology, |s, v| s.sigma_position_m = v)),
-    own("metrology.sigma_velocity", "m/s", NonNegative,
-        "standard deviation of the relative velocity noise per sample and axis; 0: noise-free",
-        sensor!(metrology, |s, v| s.sigma_velocity_m_s = v)),
-    own("metrology.dropout_probability", "", Fraction, "probability that a metrology sample is missing",
-        sensor!(metrology, |s, v| s.dropout_probability = v)),
-    own("metrology.outlier_probability", "", Fraction, "probability that a metrology sample is an outlier",
-        sensor!(metrology, |s, v| s.outlier_probability = v)),
-    own("metrology.outlier_scale", "", NonNegative,
-        "noise of an outlier in multiples of the standard deviation, on all six components",
-        sensor!(metrology, |s, v| s.outlier_scale = v)),
     own("target.mass", "kg", AtLeast(1e-3), "mass of the target, against which air and light push it",
         mission!(|m, v| m.target.mass_kg = v)),
     own("chaser.mass", "kg", AtLeast(1e-3), "mass of the chaser, against which air and light push it",
         mission!(|m, v| m.chaser.mass_kg = v)),
-    own("camera.sigma_angle", "rad", NonNegative, "standard deviation of the camera's angles per sample; 0: noise-free",
-        sensor!(camera, |s, v| s.sigma_angle_deg = v.to_degrees())),
-    own("camera.dropout_probability", "", Fraction, "probability that a camera sample is missing",
-        sensor!(camera, |s, v| s.dropout_probability = v)),
-    own("camera.outlier_probability", "", Fraction, "probability that a camera sample is an outlier",
-        sensor!(camera, |s, v| s.outlier_probability = v)),
-    own("camera.outlier_scale", "", NonNegative,
-        "noise of an outlier in multiples of the standard deviation, on both angles",
-        sensor!(camera, |s, v| s.outlier_scale = v)),
-    own("radio.sigma_range", "m", NonNegative, "standard deviation of the radio's range per sample; 0: noise-free",
-        sensor!(radio, |s, v| s.sigma_range_m = v)),
-    own("radio.sigma_range_rate", "m/s", NonNegative,
-        "standard deviation of the radio's range rate per sample; 0: noise-free",
-        sensor!(radio, |s, v| s.sigma_range_rate_m_s = v)),
-    own("radio.dropout_probability", "", Fraction, "probability that a radio sample is missing",
-        sensor!(radio, |s, v| s.dropout_probability = v)),
-    own("radio.outlier_probability", "", Fraction, "probability that a radio sample is an outlier",
-        sensor!(radio, |s, v| s.outlier_probability = v)),
-    own("radio.outlier_scale", "", NonNegative,
-        "noise of an outlier in multiples of the standard deviation, on range and range rate",
-        sensor!(radio, |s, v| s.outlier_scale = v)),
 ];
+
+/// The parameters of one sensor of the target.
+fn of_sensor(sensor: Sensor) -> impl Iterator<Item = Parameter> {
+    let row = move |key: &'static str, name: &str, unit, bound, about| Parameter {
+        name: format!("{}.{name}", sensor.name()).into(),
+        unit,
+        len: 1,
+        start: OWN,
+        bound,
+        own: true,
+        about: Cow::Owned(about),
+        effect: Effect::Sensor(sensor, key),
+    };
+    let sigmas = sensor.sigmas().iter().map(move |sigma| {
+        let about = format!("{} per sample; 0: noise-free", sigma.meaning());
+        row(sigma.key, sigma.name(), sigma.quantity.unit(), NonNegative, about)
+    });
+    let word = sensor.word();
+    let faults = [
+        (
+            "dropout_probability",
+            Fraction,
+            format!("probability that a {word} sample is missing"),
+        ),
+        (
+            "outlier_probability",
+            Fraction,
+            format!("probability that a {word} sample is an outlier"),
+        ),
+        (
+            "outlier_scale",
+            NonNegative,
+            "noise of an outlier in multiples of the standard deviation, on all channels".to_owned(),
+        ),
+    ];
+    sigmas.chain(faults.map(|(key, bound, about)| row(key, key, "", bound, about)))
+}
 
 #[cfg(test)]
 #[allow(clippy::float_cmp)]
@@ -381,8 +405,10 @@ mod tests {
     /// A mission with every sensor.
     fn mission() -> Mission {
         let text = embedded("leo_venting").unwrap().text;
-        let rest = "[sensors.camera]\n[sensors.radio]\n[sensors.metrology]\n[initial_error]";
-        Mission::parse("all.toml", &text.replace("[initial_error]", rest)).unwrap()
+        let absent = |sensor: &Sensor| !text.contains(&sensor.table());
+        let tables: Vec<String> = Sensor::ALL.into_iter().filter(absent).map(Sensor::table).collect();
+        let rest = format!("{}\n[initial_error]", tables.join("\n"));
+        Mission::parse("all.toml", &text.replace("[initial_error]", &rest)).unwrap()
     }
 
     fn untouched() -> Run {
@@ -411,7 +437,7 @@ mod tests {
                 let expected = if (row, i) == (other, j) { 0.625 } else { start };
                 assert_eq!(changed.value(other, j), expected, "{}[{i}]", PARAMETERS[row].name);
             }
-            let name = PARAMETERS[row].name;
+            let name = PARAMETERS[row].name.as_ref();
             let name = if PARAMETERS[row].len > 1 {
                 format!("{name}[{}]", i + 1)
             } else {
@@ -461,10 +487,10 @@ mod tests {
     #[test]
     fn every_row_changes_what_it_says_and_nothing_else() {
         let before = untouched();
-        for row in PARAMETERS {
+        for row in PARAMETERS.iter() {
             let mut run = before.clone();
-            (row.apply)(&mut run, &vec![0.25; row.len]);
-            let (owner, quantity) = row.name.split_once('.').unwrap_or(("time", row.name));
+            row.apply(&mut run, &vec![0.25; row.len]);
+            let (owner, quantity) = row.name.split_once('.').unwrap_or(("time", &row.name));
             let expected = match (owner, quantity) {
                 ("time", _) => "time.sample_period_s".to_owned(),
                 ("vent", _) => "vent_scale".to_owned(),
@@ -594,9 +620,9 @@ mod tests {
         for (name, value, expected, own) in cases {
             assert_eq!(refused(name, value), format!("{expected}{own}"));
         }
-        for row in PARAMETERS {
+        for row in PARAMETERS.iter() {
             for value in [f64::NAN, f64::INFINITY] {
-                assert!(refused(row.name, value).starts_with(row.name));
+                assert!(refused(&row.name, value).starts_with(row.name.as_ref()));
             }
         }
     }

@@ -1,8 +1,9 @@
 //! One run of a world: time grid, latched inputs, samples.
 
+use astro::frames::lidar_from_body;
 use astro::{ClohessyWiltshire, Lvlh, TargetOrbit};
 use interface::mission::{Frame, Mission};
-use nalgebra::{SVector, Vector3};
+use nalgebra::{SVector, Vector3, Vector6};
 use numerics::{Generator, Source, stream};
 use sensors::{accelerometer, metrology, normal3};
 use serde::{Deserialize, Serialize};
@@ -174,7 +175,7 @@ impl Simulation {
         let state = start(&run.mission, &world, &timeline)?;
         finite(&state, start_time)?;
         let sensors = Sensors::new(&run);
-        let reference = reference(&run.mission, &world, &state, sensors.have_metrology());
+        let reference = reference(&run.mission, &world, &state, sensors.measure_in_lvlh());
         let bias = Bias::new(&run);
         let begin = Instant {
             sky: world.sky(0.0),
@@ -188,7 +189,7 @@ impl Simulation {
             Some(relative) if run.mission.navigation.frame == Frame::Lvlh => draw_measurement(&run, &sigma, relative),
             _ => draw_estimate(&run, &sigma, &state, &now.a_t_n, &bias.now),
         };
-        let sample = SensorSample::before_the_first(&scene(&world, sensors.have_metrology(), &begin, None));
+        let sample = SensorSample::before_the_first(&scene(&world, sensors.measure_in_lvlh(), &begin, None));
         Ok(Self {
             notes: run.mission.notes(),
             mission: run.mission.name,
@@ -357,7 +358,7 @@ impl Simulation {
             self.felt.there = Some(instant.state);
         }
         let mean = self.mean_force(elapsed, &instant.state);
-        let scene = scene(&self.world, self.sensors.have_metrology(), instant, mean);
+        let scene = scene(&self.world, self.sensors.measure_in_lvlh(), instant, mean);
         let time = self.start_time + elapsed;
         self.sensors.sample(&mut self.sample, time, elapsed, &scene);
     }
@@ -407,8 +408,8 @@ impl Simulation {
 }
 
 /// The circular motion that the true relative acceleration is told less of.
-fn reference(mission: &Mission, world: &World, state: &Vehicles, metrology: bool) -> Option<ClohessyWiltshire> {
-    let mu = world.environment.mu().filter(|_| metrology)?;
+fn reference(mission: &Mission, world: &World, state: &Vehicles, in_lvlh: bool) -> Option<ClohessyWiltshire> {
+    let mu = world.environment.mu().filter(|_| in_lvlh)?;
     // Without elements, the osculating axis; on a hyperbola, its length.
     let osculating = || (2.0 / state.r_t.norm() - state.v_t.norm_squared() / mu).recip().abs();
     let a = mission.navigation().reference_orbit_a_m.unwrap_or_else(osculating);
@@ -449,27 +450,31 @@ fn moment(world: &World, reference: Option<&ClohessyWiltshire>, time: f64, insta
 }
 
 /// What the sensors meet at an instant.
-fn scene(world: &World, metrology: bool, instant: &Instant, mean_force_c_bc: Option<Vector3<f64>>) -> Scene {
+fn scene(world: &World, in_lvlh: bool, instant: &Instant, mean_force_c_bc: Option<Vector3<f64>>) -> Scene {
     let Instant {
         sky,
         state,
         push,
         b_c_bc,
     } = instant;
-    Scene {
+    let dcm_bc_n = world.dcm_bc_n(sky.t, state);
+    let mut target = sensors::Scene {
         r_tc_n: state.r_tc(),
         v_tc_n: state.v_tc(),
-        metrology: metrology.then(|| {
-            let a_t_n = world.target_acceleration(sky, state, push);
-            let (rho, rho_dot) = Lvlh::new(&state.r_t, &state.v_t, &a_t_n).relative(&state.r_c, &state.v_c);
-            (
-                metrology::measure(&rho, &rho_dot),
-                TargetOrbit::from_state(&state.r_t, &state.v_t),
-            )
-        }),
+        dcm_l_n: lidar_from_body() * dcm_bc_n,
+        lvlh: Vector6::repeat(f64::NAN),
+    };
+    if in_lvlh {
+        let a_t_n = world.target_acceleration(sky, state, push);
+        let (rho, rho_dot) = Lvlh::new(&state.r_t, &state.v_t, &a_t_n).relative(&state.r_c, &state.v_c);
+        target.lvlh = metrology::measure(&rho, &rho_dot);
+    }
+    Scene {
+        target,
+        target_orbit: in_lvlh.then(|| TargetOrbit::from_state(&state.r_t, &state.v_t)),
         force_c_n: world.force_on_chaser(sky, state, push),
         mean_force_c_bc,
-        dcm_bc_n: world.dcm_bc_n(sky.t, state),
+        dcm_bc_n,
         b_c_bc: *b_c_bc,
     }
 }

@@ -7,8 +7,9 @@ mod common;
 use astro::harmonics::EGM96;
 use astro::{ClohessyWiltshire, J2RelativeMotion, TargetOrbit, ZonalGravity, frames};
 use common::{numbered, samples, start, with};
+use interface::Sensor;
 use nalgebra::{SVector, Vector3};
-use truth::{Forces, Inputs, Moment, Params, Relative, Simulation, Vehicles};
+use truth::{Forces, Inputs, Moment, Params, Relative, SensorSample, Simulation, Vehicles};
 
 /// Three orbits.
 const DURATION: u32 = 21_939;
@@ -64,6 +65,16 @@ fn linear_motion() -> ClohessyWiltshire {
     ClohessyWiltshire {
         mean_motion: (3.986004415e14 / 8143.1e3_f64.powi(3)).sqrt(),
     }
+}
+
+/// Position that the metrology measured.
+fn rho(sample: &SensorSample) -> Vector3<f64> {
+    Vector3::from_row_slice(&sample[Sensor::Metrology].z[..3])
+}
+
+/// Its rate.
+fn rho_dot(sample: &SensorSample) -> Vector3<f64> {
+    Vector3::from_row_slice(&sample[Sensor::Metrology].z[3..6])
 }
 
 #[test]
@@ -236,21 +247,21 @@ fn accelerometer_feels_air_light_and_command() {
 fn noise_free_metrology_tells_the_truth_at_the_epoch() {
     let params = with(&noise_free(full()), &[("sample_period", 2.0)]);
     let mut run = start(&params);
-    assert!(!run.sample().metrology.valid && run.sample().metrology.rho_lvlh == Vector3::zeros());
+    assert!(!run.sample()[Sensor::Metrology].valid && rho(run.sample()) == Vector3::zeros());
     let mut at_epoch = *run.now();
     for t in [1.0, 2.0, 3.7, 4.0, 5.0] {
         run.advance_to(t, &Inputs::default()).unwrap();
         let (now, sample) = (run.now(), run.sample());
         if t == sample.time {
             at_epoch = *now;
-            assert!(sample.metrology.valid);
-            assert_eq!(sample.metrology.rho_lvlh, relative(now).rho_lvlh);
-            assert_eq!(sample.metrology.rho_dot_lvlh, relative(now).rho_dot_lvlh);
+            assert!(sample[Sensor::Metrology].valid);
+            assert_eq!(rho(sample), relative(now).rho_lvlh);
+            assert_eq!(rho_dot(sample), relative(now).rho_dot_lvlh);
         }
         // The orbit holds at the epoch; its elements lead back to the state.
         let (r, v) = sample.target_orbit.unwrap().to_state();
         assert!((r - at_epoch.state.r_t).amax() < 1e-7 && (v - at_epoch.state.v_t).amax() < 1e-10);
-        assert_eq!((sample.lidar.valid, sample.lidar.range), (false, 0.0));
+        assert_eq!((sample[Sensor::Lidar].valid, sample[Sensor::Lidar].z[0]), (false, 0.0));
         // The chaser looks at the target.
         let ahead = sample.dcm_bc_n * at_epoch.state.r_tc();
         assert!(
@@ -275,8 +286,8 @@ fn metrology_noise_has_its_deviation_and_outliers_their_multiple() {
         let mut squares = [0.0; 6];
         let mut product = 0.0;
         for (noisy, clean) in samples(&params, 1.0, count).iter().zip(&clean) {
-            let position = (noisy.metrology.rho_lvlh - clean.metrology.rho_lvlh) / (1e-2 * scale);
-            let velocity = (noisy.metrology.rho_dot_lvlh - clean.metrology.rho_dot_lvlh) / (1e-4 * scale);
+            let position = (rho(noisy) - rho(clean)) / (1e-2 * scale);
+            let velocity = (rho_dot(noisy) - rho_dot(clean)) / (1e-4 * scale);
             for (sum, error) in squares.iter_mut().zip(position.iter().chain(&velocity)) {
                 *sum += error * error / f64::from(count);
             }
@@ -324,8 +335,8 @@ fn one_fault_of_the_metrology_moves_no_other_draw() {
     assert_eq!(seen, no_lidar_faults);
     let mut counts = [0; 2];
     for (k, sample) in seen.iter().enumerate() {
-        let metrology = sample.metrology;
-        assert!(no_dropouts[k].metrology.valid);
+        let metrology = sample[Sensor::Metrology];
+        assert!(no_dropouts[k][Sensor::Metrology].valid);
         assert_eq!((sample.count, sample.time), (k as u64 + 1, k as f64 + 1.0));
         assert_eq!(sample.accelerometer.alpha_c_bc, no_dropouts[k].accelerometer.alpha_c_bc);
         assert_eq!(sample.target_orbit, no_dropouts[k].target_orbit);
@@ -336,23 +347,18 @@ fn one_fault_of_the_metrology_moves_no_other_draw() {
             let held = if k == 0 {
                 Default::default()
             } else {
-                seen[k - 1].metrology
+                seen[k - 1][Sensor::Metrology]
             };
-            assert_eq!(
-                (metrology.rho_lvlh, metrology.rho_dot_lvlh),
-                (held.rho_lvlh, held.rho_dot_lvlh)
-            );
+            assert_eq!(metrology.z, held.z);
         }
         // An outlier changes its own sample, all six numbers, and none after it.
-        let plain = no_outliers[k].metrology;
+        let plain = no_outliers[k][Sensor::Metrology];
         assert_eq!(metrology.valid, plain.valid);
         if metrology.valid && metrology != plain {
             counts[1] += 1;
-            let pairs = metrology.rho_lvlh.iter().zip(&plain.rho_lvlh);
-            let rates = metrology.rho_dot_lvlh.iter().zip(&plain.rho_dot_lvlh);
-            assert!(pairs.chain(rates).all(|(a, b)| a != b));
+            assert!(metrology.z.iter().zip(&plain.z).all(|(a, b)| a != b));
         }
-        assert_eq!(metrology.rho_dot_lvlh, exact_position[k].metrology.rho_dot_lvlh);
+        assert_eq!(rho_dot(sample), rho_dot(&exact_position[k]));
     }
     // Binomial counts of 400 at 0.1, and of the 360 received at 0.2, within 3 sigma.
     assert!((22..=58).contains(&counts[0]), "{} dropouts", counts[0]);
@@ -377,7 +383,7 @@ fn initial_estimate_is_a_measurement_of_its_own() {
             *sum += error * error / f64::from(runs);
         }
         world.advance_to(1.0, &Inputs::default()).unwrap();
-        let first = (world.sample().metrology.rho_lvlh - relative(world.now()).rho_lvlh) / 1e-2;
+        let first = (rho(world.sample()) - relative(world.now()).rho_lvlh) / 1e-2;
         product += position.dot(&first) / f64::from(3 * runs);
     }
     for (channel, variance) in squares.iter().enumerate() {
@@ -426,8 +432,8 @@ fn worlds_have_one_instrument_each() {
         let mut run = start(&Params::of_scenario(ordinal));
         run.advance_to(3.0, &Inputs::default()).unwrap();
         let sample = run.sample();
-        assert!(sample.lidar.valid && !sample.metrology.valid);
-        assert_eq!(sample.metrology.rho_lvlh, Vector3::zeros());
+        assert!(sample[Sensor::Lidar].valid && !sample[Sensor::Metrology].valid);
+        assert_eq!(rho(sample), Vector3::zeros());
         assert!(sample.target_orbit.is_none() && run.now().relative.is_none());
     }
     // Nothing vents in formation.

@@ -4,6 +4,7 @@
 mod common;
 
 use common::{File, advance, changed, felt, quiet, samples, start, with};
+use interface::Sensor;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use truth::{Params, SensorSample};
@@ -31,26 +32,26 @@ fn sensors_keep_their_own_periods() {
         assert_eq!(seen.count, count, "at {t} s");
         assert!((seen.time - t).abs() < 1e-12, "{} at {t} s", seen.time);
         let flags = [
-            seen.lidar.due,
-            seen.camera.due,
-            seen.radio.due,
-            seen.metrology.due,
+            seen[Sensor::Lidar].due,
+            seen[Sensor::Camera].due,
+            seen[Sensor::Radio].due,
+            seen[Sensor::Metrology].due,
             seen.accelerometer.valid,
         ];
         assert_eq!(flags, due, "at {t} s");
         let valid = [
-            seen.lidar.valid,
-            seen.camera.valid,
-            seen.radio.valid,
-            seen.metrology.valid,
+            seen[Sensor::Lidar].valid,
+            seen[Sensor::Camera].valid,
+            seen[Sensor::Radio].valid,
+            seen[Sensor::Metrology].valid,
         ];
         assert_eq!(valid, due[..4], "at {t} s");
         // Values stay until the next.
         let kept = [
-            seen.lidar.range == before.lidar.range,
-            seen.camera.azimuth == before.camera.azimuth,
-            seen.radio.range_rate == before.radio.range_rate,
-            seen.metrology.rho_lvlh == before.metrology.rho_lvlh,
+            seen[Sensor::Lidar].z[0] == before[Sensor::Lidar].z[0],
+            seen[Sensor::Camera].z[0] == before[Sensor::Camera].z[0],
+            seen[Sensor::Radio].z[1] == before[Sensor::Radio].z[1],
+            seen[Sensor::Metrology].z == before[Sensor::Metrology].z,
             seen.accelerometer.alpha_c_bc == before.accelerometer.alpha_c_bc,
         ];
         assert_eq!(kept, due.map(|d| !d), "at {t} s");
@@ -65,7 +66,7 @@ fn periods_that_only_nearly_meet_do_meet() {
     let mut run = File::new(&text).simulation();
     advance(&mut run, 30.0);
     assert_eq!(run.sample().count, 300);
-    assert!(run.sample().lidar.due && run.sample().radio.due);
+    assert!(run.sample()[Sensor::Lidar].due && run.sample()[Sensor::Radio].due);
 }
 
 #[test]
@@ -74,7 +75,11 @@ fn the_sample_period_is_that_of_sensors_without_their_own() {
     let epochs = |params: &Params| {
         let mut run = start(params);
         advance(&mut run, 12.0);
-        (run.sample().count, run.sample().lidar.due, run.sample().radio.due)
+        (
+            run.sample().count,
+            run.sample()[Sensor::Lidar].due,
+            run.sample()[Sensor::Radio].due,
+        )
     };
     assert_eq!(epochs(&file.params()), (12, true, true));
     assert_eq!(
@@ -98,9 +103,9 @@ fn range_rate(text: &str, at: &[f64], rounding: f64) {
         for (k, range) in (0..).zip(&mut seen) {
             advance(&mut run, t + h * (f64::from(k) - 2.0));
             *range = run.now().state.r_tc().norm();
-            assert!((run.sample().radio.range - *range).abs() < 1e-9);
+            assert!((run.sample()[Sensor::Radio].z[0] - *range).abs() < 1e-9);
             if k == 2 {
-                rate = run.sample().radio.range_rate;
+                rate = run.sample()[Sensor::Radio].z[1];
             }
         }
         let difference = ((seen[3] - seen[1]) * 8.0 - (seen[4] - seen[0])) / (12.0 * h);
@@ -127,22 +132,22 @@ fn camera_sees_what_the_lidar_sees() {
     let mut run = File::new(&text).simulation();
     advance(&mut run, 1.0);
     let seen = run.sample();
-    assert!(seen.lidar.valid && seen.camera.valid);
+    assert!(seen[Sensor::Lidar].valid && seen[Sensor::Camera].valid);
     assert_eq!(
-        (seen.camera.azimuth, seen.camera.elevation),
-        (seen.lidar.azimuth, seen.lidar.elevation)
+        (seen[Sensor::Camera].z[0], seen[Sensor::Camera].z[1]),
+        (seen[Sensor::Lidar].z[1], seen[Sensor::Lidar].z[2])
     );
     // In RTN body axes the target is 100 m along y, 3 m up and 2 m off the plane: elevation turns to x, azimuth to z. In the
     // second since the start the axes have turned by 1e-3.
     assert!(
-        (seen.camera.elevation - (3.0_f64 / 100.0).atan()).abs() < 2e-3,
+        (seen[Sensor::Camera].z[1] - (3.0_f64 / 100.0).atan()).abs() < 2e-3,
         "{}",
-        seen.camera.elevation
+        seen[Sensor::Camera].z[1]
     );
     assert!(
-        (seen.camera.azimuth - (-2.0_f64 / 100.0).atan()).abs() < 3e-3,
+        (seen[Sensor::Camera].z[0] - (-2.0_f64 / 100.0).atan()).abs() < 3e-3,
         "{}",
-        seen.camera.azimuth
+        seen[Sensor::Camera].z[0]
     );
 }
 
@@ -168,10 +173,10 @@ fn noise_of_camera_and_radio_has_its_deviation() {
         let seen = samples(&params, 1.0, n);
         for (noisy, clean) in seen.iter().zip(&samples(&clean.params(), 1.0, n)) {
             let errors = [
-                (noisy.camera.azimuth - clean.camera.azimuth) / 0.02_f64.to_radians(),
-                (noisy.camera.elevation - clean.camera.elevation) / 0.02_f64.to_radians(),
-                (noisy.radio.range - clean.radio.range) / 3.0,
-                (noisy.radio.range_rate - clean.radio.range_rate) / 1e-2,
+                (noisy[Sensor::Camera].z[0] - clean[Sensor::Camera].z[0]) / 0.02_f64.to_radians(),
+                (noisy[Sensor::Camera].z[1] - clean[Sensor::Camera].z[1]) / 0.02_f64.to_radians(),
+                (noisy[Sensor::Radio].z[0] - clean[Sensor::Radio].z[0]) / 3.0,
+                (noisy[Sensor::Radio].z[1] - clean[Sensor::Radio].z[1]) / 1e-2,
             ];
             for (sum, error) in sums.iter_mut().zip(errors) {
                 *sum += (error / scale).powi(2) / f64::from(n);
@@ -189,23 +194,23 @@ fn noise_of_camera_and_radio_has_its_deviation() {
 #[test]
 fn a_sensor_more_moves_no_other_draw() {
     let faulty = |name: &str| format!("[sensors.{name}]\ndropout_probability = 0.2\noutlier_probability = 0.2\n");
-    let names = ["lidar", "radio", "metrology"];
-    let text = |names: &[&str]| {
-        let sensors: String = names.iter().map(|name| faulty(name)).collect();
+    let every = Sensor::ALL;
+    let text = |some: &[Sensor]| {
+        let sensors: String = some.iter().map(|sensor| faulty(sensor.name())).collect();
         quiet(&format!("{sensors}[sensors.accelerometer]\nbias_sigma_m_s2 = 1e-8\n"))
     };
-    let taken = |names: &[&str]| samples(&File::new(&text(names)).params(), 1.0, 200);
-    let all = taken(&names);
-    for left_out in names {
-        let rest: Vec<&str> = names.into_iter().filter(|name| *name != left_out).collect();
+    let taken = |some: &[Sensor]| samples(&File::new(&text(some)).params(), 1.0, 200);
+    let all = taken(&every);
+    for left_out in every {
+        let rest: Vec<Sensor> = every.into_iter().filter(|sensor| *sensor != left_out).collect();
         for (with, without) in all.iter().zip(taken(&rest)) {
             let mut with = *with;
-            match left_out {
-                "lidar" => with.lidar = without.lidar,
-                "radio" => with.radio = without.radio,
-                _ => (with.metrology, with.target_orbit) = (without.metrology, without.target_orbit),
+            // The target's orbit goes with whatever measures in its axes.
+            if sensors::of(left_out).in_lvlh() {
+                with.target_orbit = without.target_orbit;
             }
-            assert_eq!(with, without, "without {left_out}");
+            with.sensors[left_out as usize] = without[left_out];
+            assert_eq!(with, without, "without {left_out:?}");
         }
     }
     // Nor do means know of a sensor that samples between their own samples.
@@ -220,11 +225,13 @@ fn a_sensor_more_moves_no_other_draw() {
     };
     assert_eq!(mean(""), mean("[sensors.lidar]\nperiod_s = 0.3\n"));
     // No two share their faults.
-    let lost = |seen: &SensorSample| [seen.lidar.valid, seen.radio.valid, seen.metrology.valid];
-    let both = |a: usize, b: usize| all.iter().filter(|s| !lost(s)[a] && !lost(s)[b]).count();
-    for (a, b) in [(0, 1), (0, 2), (1, 2)] {
-        // 200 at 0.04, within 3 sigma.
-        assert!((1..=17).contains(&both(a, b)), "{} shared", both(a, b));
+    let lost = |seen: &SensorSample, sensor: Sensor| !seen[sensor].valid;
+    for (i, a) in every.into_iter().enumerate() {
+        for b in &every[i + 1..] {
+            let both = all.iter().filter(|s| lost(s, a) && lost(s, *b)).count();
+            // 200 at 0.04, within 3 sigma.
+            assert!((1..=17).contains(&both), "{a:?} and {b:?}: {both} shared");
+        }
     }
 }
 

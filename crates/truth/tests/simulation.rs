@@ -6,6 +6,7 @@
 mod common;
 
 use common::{advance, numbered, samples, start, with};
+use interface::Sensor;
 use interface::mission::Embedded;
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -141,7 +142,7 @@ fn run_and_seed_select_the_world() {
                 .all(|(a, b)| a != b)
         );
         assert!(
-            seen[2].lidar.range != other_seen[2].lidar.range
+            seen[2][Sensor::Lidar].z[0] != other_seen[2][Sensor::Lidar].z[0]
                 && seen[2].accelerometer.alpha_c_bc != other_seen[2].accelerometer.alpha_c_bc
         );
     }
@@ -151,7 +152,7 @@ fn run_and_seed_select_the_world() {
 fn nothing_is_measured_before_the_first_sample() {
     let mut run = start(&Params::default());
     assert_eq!(
-        (run.sample().count, run.sample().time, run.sample().lidar.valid),
+        (run.sample().count, run.sample().time, run.sample()[Sensor::Lidar].valid),
         (0, 0.0, false)
     );
     assert_eq!(run.sample().accelerometer.alpha_c_bc, Vector3::zeros());
@@ -159,7 +160,7 @@ fn nothing_is_measured_before_the_first_sample() {
     assert_eq!(run.sample().count, 0);
     advance(&mut run, 1.0);
     assert_eq!(
-        (run.sample().count, run.sample().time, run.sample().lidar.valid),
+        (run.sample().count, run.sample().time, run.sample()[Sensor::Lidar].valid),
         (1, 1.0, true)
     );
 }
@@ -170,8 +171,8 @@ fn noise_free_sensors_tell_the_truth() {
     for t in [1.0, 200.0, 5565.0, 5680.0] {
         advance(&mut run, t);
         let (now, sample) = (run.now(), run.sample());
-        assert!((sample.lidar.range - now.state.r_tc().norm()).abs() < 1e-9);
-        assert!(sample.lidar.azimuth.abs() + sample.lidar.elevation.abs() < 1e-12);
+        assert!((sample[Sensor::Lidar].z[0] - now.state.r_tc().norm()).abs() < 1e-9);
+        assert!(sample[Sensor::Lidar].z[1].abs() + sample[Sensor::Lidar].z[2].abs() < 1e-12);
         // exp(-t / 3600 s) of the first bias.
         let bias = Vector3::repeat(2.943e-6 * f64::exp(-t / 3600.0));
         assert!((now.b_c_bc - bias).amax() < 1e-17);
@@ -221,9 +222,9 @@ fn noise_has_its_deviation_and_outliers_their_multiple() {
         for (noisy, clean) in samples(&params, 1.0, seconds as u32).iter().zip(&clean) {
             let alpha = (noisy.accelerometer.alpha_c_bc - clean.accelerometer.alpha_c_bc) / 3.433e-6;
             let errors = [
-                (noisy.lidar.range - clean.lidar.range) / (0.08 * scale),
-                (noisy.lidar.azimuth - clean.lidar.azimuth) / (sigma_angle * scale),
-                (noisy.lidar.elevation - clean.lidar.elevation) / (sigma_angle * scale),
+                (noisy[Sensor::Lidar].z[0] - clean[Sensor::Lidar].z[0]) / (0.08 * scale),
+                (noisy[Sensor::Lidar].z[1] - clean[Sensor::Lidar].z[1]) / (sigma_angle * scale),
+                (noisy[Sensor::Lidar].z[2] - clean[Sensor::Lidar].z[2]) / (sigma_angle * scale),
                 alpha.x,
                 alpha.y,
                 alpha.z,
@@ -260,31 +261,35 @@ fn one_fault_moves_no_other_draw() {
         changes.map(|p| samples(&p, 1.0, 400));
     let mut counts = [0; 2];
     for (k, sample) in seen.iter().enumerate() {
-        assert!(no_dropouts[k].lidar.valid);
-        if sample.lidar.valid {
+        assert!(no_dropouts[k][Sensor::Lidar].valid);
+        if sample[Sensor::Lidar].valid {
             assert_eq!(*sample, no_dropouts[k]);
         } else {
             counts[0] += 1;
             assert_eq!((sample.count, sample.time), (no_dropouts[k].count, no_dropouts[k].time));
             assert_eq!(sample.accelerometer.alpha_c_bc, no_dropouts[k].accelerometer.alpha_c_bc);
-            let held = if k == 0 { Default::default() } else { seen[k - 1].lidar };
-            assert_eq!((sample.lidar.range, sample.lidar.azimuth), (held.range, held.azimuth));
+            let held = if k == 0 {
+                Default::default()
+            } else {
+                seen[k - 1][Sensor::Lidar]
+            };
+            assert_eq!(sample[Sensor::Lidar].z[..2], held.z[..2]);
         }
         // An outlier changes its own sample and none after it.
-        assert_eq!(sample.lidar.valid, no_outliers[k].lidar.valid);
-        let outlier = sample.lidar.valid && sample.lidar != no_outliers[k].lidar;
+        assert_eq!(sample[Sensor::Lidar].valid, no_outliers[k][Sensor::Lidar].valid);
+        let outlier = sample[Sensor::Lidar].valid && sample[Sensor::Lidar] != no_outliers[k][Sensor::Lidar];
         if outlier {
             counts[1] += 1;
             assert!(
-                sample.lidar.range != no_outliers[k].lidar.range
-                    && sample.lidar.azimuth != no_outliers[k].lidar.azimuth
+                sample[Sensor::Lidar].z[0] != no_outliers[k][Sensor::Lidar].z[0]
+                    && sample[Sensor::Lidar].z[1] != no_outliers[k][Sensor::Lidar].z[1]
             );
         }
         assert_eq!(sample.accelerometer.alpha_c_bc, no_outliers[k].accelerometer.alpha_c_bc);
-        assert_eq!(sample.lidar, quiet_accelerometer[k].lidar);
-        assert_eq!(sample.lidar.azimuth, exact_range[k].lidar.azimuth);
+        assert_eq!(sample[Sensor::Lidar], quiet_accelerometer[k][Sensor::Lidar]);
+        assert_eq!(sample[Sensor::Lidar].z[1], exact_range[k][Sensor::Lidar].z[1]);
         assert_eq!(sample.accelerometer.alpha_c_bc, exact_range[k].accelerometer.alpha_c_bc);
-        assert_eq!(sample.lidar, steady_bias[k].lidar);
+        assert_eq!(sample[Sensor::Lidar], steady_bias[k][Sensor::Lidar]);
     }
     // Binomial counts of 400 at 0.1, and of the 360 received at 0.2, within 3 sigma.
     assert!((22..=58).contains(&counts[0]), "{} dropouts", counts[0]);

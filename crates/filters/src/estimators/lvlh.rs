@@ -11,13 +11,13 @@ use crate::error::FilterError;
 use crate::gravity::Gravity;
 use crate::innovation::Innovation;
 use crate::laws::{Adaptation, Motion, Step};
-use crate::layout::{Layout, Sensor};
+use crate::layout::Layout;
 use crate::sample::Sample;
 use crate::state::{N_TARGET, Rows, State, Target, TargetMatrix, idx};
 use crate::update::ConstantGain;
 use crate::update::kalman::{self, Gaussian, Measurement};
 use astro::{ClohessyWiltshire, J2RelativeMotion};
-use interface::Navigation;
+use interface::{Navigation, Sensor};
 use nalgebra::{Matrix3, SMatrix, Vector6};
 use numerics::spd;
 use serde::{Deserialize, Serialize};
@@ -74,7 +74,7 @@ impl LvlhState {
         };
         if Layout::of(told) != Layout::new(&[Sensor::Metrology]) {
             return Err(unusable(
-                "in the LVLH frame the target is seen by a metrology alone: LiDAR, camera and radio need navigation.frame = \"inertial\"",
+                "in the LVLH frame the target is seen by a metrology alone: other sensors need navigation.frame = \"inertial\"",
             ));
         }
         let zonal = Gravity::of(told)?
@@ -164,11 +164,11 @@ impl Estimator for LvlhState {
         let Some(core) = &mut self.core else { return Ok(None) };
         step.p_prior = core.p;
         step.p_post = core.p;
-        let Some(measured) = sample.metrology.seen() else {
+        let Some(measured) = sample[Sensor::Metrology].seen() else {
             return Ok(None);
         };
         let prior = core.x;
-        let residual = measured - core.x.fixed_rows::<6>(0);
+        let residual = measured.fixed_rows::<6>(0) - core.x.fixed_rows::<6>(0);
         step.measured.mark(0..6);
         // The first six states themselves.
         step.h = Rows::from_fn(|i, j| f64::from(u8::from(i == j && i < 6)));

@@ -1,52 +1,29 @@
-//! How the sensors of the target see the states of the inertial frame: prediction and rows of H, one function each.
+//! What the sensors of the target need to know of a filter in the inertial frame: noise and size of their rows, and the relative
+//! state in the axes of the estimated target.
 
-use crate::layout::{Layout, Sensor};
+use crate::layout::Layout;
 use crate::state::RowVector;
 use crate::units::Units;
 use astro::relative_axes::Reference;
 use astro::{AstroError, RelativeAxes};
-use interface::Navigation;
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3, Vector6};
-
-/// A prediction and its partials by r_tc and v_tc.
-pub(super) type Sight<const M: usize> = (SVector<f64, M>, SMatrix<f64, M, 6>);
+use interface::mission::Quantity;
+use interface::{Navigation, Sensor};
+use nalgebra::{Matrix6, Vector6};
 
 /// Noise variances of every sensor of a mission, internal units, in the places of its layout.
 pub(super) fn noise(told: &Navigation) -> RowVector {
-    let (units, layout) = (Units::of(&told.units), Layout::of(told));
+    let layout = Layout::of(told);
+    let si = si(&layout, &Units::of(&told.units));
     let mut r = RowVector::zeros();
-    let mut put = |sensor: Sensor, deviations: &[f64]| {
-        for (row, sigma) in layout.of_sensor(sensor).into_iter().flatten().zip(deviations) {
-            r[row] = sigma * sigma;
+    for known in &told.sensors {
+        for (row, sigma) in layout
+            .of_sensor(known.sensor)
+            .into_iter()
+            .flatten()
+            .zip(known.deviations())
+        {
+            r[row] = (sigma / si[row]).powi(2);
         }
-    };
-    if let Some(s) = told.lidar {
-        put(
-            Sensor::Lidar,
-            &[s.sigma_range_m / units.length, s.sigma_angle_rad, s.sigma_angle_rad],
-        );
-    }
-    if let Some(s) = told.camera {
-        put(Sensor::Camera, &[s.sigma_angle_rad; 2]);
-    }
-    if let Some(s) = told.radio {
-        put(
-            Sensor::Radio,
-            &[
-                s.sigma_range_m / units.length,
-                s.sigma_range_rate_m_s / units.velocity(),
-            ],
-        );
-    }
-    if let Some(s) = told.metrology {
-        let (position, velocity) = (
-            s.sigma_position_m / units.length,
-            s.sigma_velocity_m_s / units.velocity(),
-        );
-        put(
-            Sensor::Metrology,
-            sensors::metrology::deviations(position, velocity).as_slice(),
-        );
     }
     r
 }
@@ -54,48 +31,51 @@ pub(super) fn noise(told: &Navigation) -> RowVector {
 /// SI size of the rows of every sensor, in the places of a layout.
 pub(super) fn si(layout: &Layout, units: &Units) -> RowVector {
     let mut si = RowVector::repeat(1.0);
-    let mut put = |sensor: Sensor, sizes: &[f64]| {
-        for (row, size) in layout.of_sensor(sensor).into_iter().flatten().zip(sizes) {
-            si[row] = *size;
+    for sensor in Sensor::ALL {
+        for (row, quantity) in layout.of_sensor(sensor).into_iter().flatten().zip(sensor.quantities()) {
+            si[row] = match quantity {
+                Quantity::Length => units.length,
+                Quantity::Velocity => units.velocity(),
+                Quantity::Angle => 1.0,
+            };
         }
-    };
-    let (length, velocity) = (units.length, units.velocity());
-    put(Sensor::Lidar, &[length, 1.0, 1.0]);
-    put(Sensor::Radio, &[length, velocity]);
-    put(
-        Sensor::Metrology,
-        &[length, length, length, velocity, velocity, velocity],
-    );
+    }
     si
 }
 
-/// LiDAR: range, azimuth, elevation (Mamich and Zanetti, Eqs. 7 to 11).
-///
-/// * `r_tc_n`: predicted relative position, axes N; `dcm_l_n`: axes N to LiDAR.
-pub(super) fn lidar(r_tc_n: &Vector3<f64>, dcm_l_n: &Matrix3<f64>) -> Sight<3> {
-    let mut h = SMatrix::<f64, 3, 6>::zeros();
-    h.fixed_view_mut::<3, 3>(0, 0)
-        .copy_from(&sensors::lidar::jacobian(r_tc_n, dcm_l_n));
-    (sensors::lidar::measure(&(dcm_l_n * r_tc_n)), h)
+/// The relative state as a sensor in LVLH axes sees it, and its partials.
+pub(super) struct InLvlh {
+    /// rho, rho_dot.
+    pub state: Vector6<f64>,
+    /// By r_tc and v_tc, the axes held.
+    pub by_relative: Matrix6<f64>,
+    /// By the target's own position and velocity, on which the axes hang.
+    pub by_target: Matrix6<f64>,
 }
 
-/// Camera: azimuth and elevation, in the LiDAR's axes.
-pub(super) fn camera(r_tc_n: &Vector3<f64>, dcm_l_n: &Matrix3<f64>) -> Sight<2> {
-    let mut h = SMatrix::<f64, 2, 6>::zeros();
-    h.fixed_view_mut::<2, 3>(0, 0)
-        .copy_from(&sensors::camera::jacobian(r_tc_n, dcm_l_n));
-    (sensors::camera::measure(&(dcm_l_n * r_tc_n)), h)
+impl InLvlh {
+    /// * `relative`, `target`: r_tc, v_tc and the target's own, internal units.
+    /// * `axes`: the axes of a target at some state.
+    ///
+    /// # Errors
+    /// When the target has no such axes.
+    pub(super) fn new(
+        relative: &Vector6<f64>,
+        target: &Vector6<f64>,
+        units: &Units,
+        axes: impl Fn(&Vector6<f64>) -> Reference,
+    ) -> Result<Self, AstroError> {
+        let (state, by_relative) = in_axes(relative, &axes(target), units)?;
+        let by_target = of_axes(target, units, |target| Ok(in_axes(relative, &axes(target), units)?.0))?;
+        Ok(Self {
+            state,
+            by_relative,
+            by_target,
+        })
+    }
 }
 
-/// Radio: range and range rate, which are the same in turning axes.
-pub(super) fn radio(r_tc_n: &Vector3<f64>, v_tc_n: &Vector3<f64>) -> Sight<2> {
-    (
-        sensors::radio::measure(r_tc_n, v_tc_n),
-        sensors::radio::jacobian(r_tc_n, v_tc_n),
-    )
-}
-
-/// Metrology: the chaser from the target, in the LVLH axes of the estimated target.
+/// The chaser from the target, in the LVLH axes of the estimated target, and its partials by r_tc and v_tc.
 ///
 /// Linear in r_tc and v_tc, the axes held; [`of_axes`] has what hangs on the axes.
 ///
@@ -103,7 +83,11 @@ pub(super) fn radio(r_tc_n: &Vector3<f64>, v_tc_n: &Vector3<f64>) -> Sight<2> {
 ///
 /// # Errors
 /// When the target has no such axes.
-pub(super) fn metrology(relative: &Vector6<f64>, target: &Reference, units: &Units) -> Result<Sight<6>, AstroError> {
+fn in_axes(
+    relative: &Vector6<f64>,
+    target: &Reference,
+    units: &Units,
+) -> Result<(Vector6<f64>, Matrix6<f64>), AstroError> {
     let unit = Vector6::from_fn(|i, _| units.of_state(i));
     let seen = |x: &Vector6<f64>| -> Result<Vector6<f64>, AstroError> {
         let x = -x.component_mul(&unit);
@@ -111,7 +95,7 @@ pub(super) fn metrology(relative: &Vector6<f64>, target: &Reference, units: &Uni
         let (rho, rho_dot) = target.from_n(RelativeAxes::Lvlh, &part(0), &part(3))?;
         Ok(sensors::metrology::measure(&rho, &rho_dot).component_div(&unit))
     };
-    let mut h = SMatrix::<f64, 6, 6>::zeros();
+    let mut h = Matrix6::zeros();
     for state in 0..6 {
         let mut one = Vector6::zeros();
         one[state] = 1.0;
@@ -120,22 +104,22 @@ pub(super) fn metrology(relative: &Vector6<f64>, target: &Reference, units: &Uni
     Ok((seen(relative)?, h))
 }
 
-/// Partials of what a metrology sees by the target's own position and velocity, which turn its axes: 0.05 m/s of a low orbit's
+/// Partials of the relative state in LVLH axes by the target's own position and velocity, which turn its axes: 0.05 m/s of a low orbit's
 /// speed turn them by 7e-6 rad, which over a kilometre is as much as a metrology is good for.
 ///
 /// By central differences, for what is seen is smooth over kilometres.
 ///
 /// * `target`: its position and velocity, internal units.
-/// * `seen`: what a metrology sees for such a target.
+/// * `seen`: the relative state in the axes of such a target.
 ///
 /// # Errors
 /// When the target has no such axes.
-pub(super) fn of_axes(
+fn of_axes(
     target: &Vector6<f64>,
     units: &Units,
     seen: impl Fn(&Vector6<f64>) -> Result<Vector6<f64>, AstroError>,
-) -> Result<SMatrix<f64, 6, 6>, AstroError> {
-    let mut h = SMatrix::<f64, 6, 6>::zeros();
+) -> Result<Matrix6<f64>, AstroError> {
+    let mut h = Matrix6::zeros();
     for state in 0..6 {
         // A hundred metres, a tenth of a metre per second: rounding of positions of 1e-9 m is then far below the slope.
         let size = if state < 3 { 100.0 } else { 0.1 } / units.of_state(state);
@@ -154,9 +138,10 @@ mod tests {
     use super::*;
     use astro::Cr3bpSystem;
     use astro::relative_axes::AxesN;
+    use nalgebra::Vector3;
 
-    fn slopes<const M: usize>(x: &Vector6<f64>, seen: impl Fn(&Vector6<f64>) -> SVector<f64, M>) -> SMatrix<f64, M, 6> {
-        let mut h = SMatrix::<f64, M, 6>::zeros();
+    fn slopes(x: &Vector6<f64>, seen: impl Fn(&Vector6<f64>) -> Vector6<f64>) -> Matrix6<f64> {
+        let mut h = Matrix6::zeros();
         for state in 0..6 {
             let size = if state < 3 { 1e-2 } else { 1e-4 };
             let mut step = Vector6::zeros();
@@ -185,10 +170,10 @@ mod tests {
         let (r, v) = parts(&Vector6::from_fn(|i, _| nd[i] * unit(i)));
         let axes = AxesN::Rotating { system, angle: 0.4 };
         let target = Reference::new(axes, &r, &v, &system.acceleration(&r, &v));
-        let (seen, h) = metrology(&x, &target, &Units::SI).unwrap();
+        let (seen, h) = in_axes(&x, &target, &Units::SI).unwrap();
         let (rho, rho_dot) = target.from_n(RelativeAxes::Lvlh, &-parts(&x).0, &-parts(&x).1).unwrap();
         assert!((parts(&seen).0 - rho).amax() < 1e-12 && (parts(&seen).1 - rho_dot).amax() < 1e-12);
-        let expected = slopes(&x, |x| metrology(x, &target, &Units::SI).unwrap().0);
+        let expected = slopes(&x, |x| in_axes(x, &target, &Units::SI).unwrap().0);
         assert!((h - expected).amax() < 1e-8, "{h} {expected}");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::accelerometer::{Accelerometer, Blur};
 use super::estimator::{Estimator, Gap, Reported, defect};
-use super::sights::{self, Sight};
+use super::sights::{self, InLvlh};
 use super::told::{Manoeuvres, Place};
 use crate::beliefs::Beliefs;
 use crate::dynamics::{AccelerationModel, Drive, TwoVehicles, initial_covariance};
@@ -10,16 +10,17 @@ use crate::error::FilterError;
 use crate::gravity::Gravity;
 use crate::innovation::Innovation;
 use crate::laws::{Adaptation, Step};
-use crate::layout::{Layout, Sensor};
+use crate::layout::Layout;
 use crate::sample::Sample;
 use crate::state::{MAX_ROWS, N, RowVector, State, StateMatrix, TargetMatrix, idx};
 use crate::units::Units;
 use crate::update::kalman::{self, Gaussian, Measurement, NotSpd};
 use astro::relative_axes::{AxesN, Reference};
-use astro::{Cr3bpSystem, frames};
-use interface::Navigation;
+use astro::{AstroError, Cr3bpSystem, frames};
 use interface::mission::InitialSigma;
+use interface::{Navigation, Sensor};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3, Vector6};
+use sensors::Scene;
 use serde::{Deserialize, Serialize};
 
 /// The filter's knowledge of both vehicles, internal units.
@@ -134,46 +135,53 @@ impl InertialState {
     /// Adds what one sensor measured to a stack.
     ///
     /// * `z`: SI.
-    fn add<const M: usize>(&self, stack: &mut Stack, sensor: Sensor, z: &SVector<f64, M>, (predicted, h): &Sight<M>) {
+    /// * `lvlh`: the relative state in LVLH axes, for a sensor that measures in them.
+    fn add(&self, stack: &mut Stack, sensor: Sensor, z: &sensors::Rows, scene: &Scene, lvlh: Option<&InLvlh>) {
+        let model = sensors::of(sensor);
+        let (predicted, mut h) = (model.measure(scene), model.jacobian(scene));
+        let mut by_target = None;
+        if let Some(lvlh) = lvlh.filter(|_| model.in_lvlh()) {
+            by_target = Some(h * lvlh.by_target);
+            h *= lvlh.by_relative;
+        }
         for (row, place) in self.layout.of_sensor(sensor).into_iter().flatten().enumerate() {
             let at = stack.push(z[row] / self.si[place] - predicted[row], self.r[place]);
             stack.places[at] = place;
             stack.h.fixed_view_mut::<1, 6>(at, 0).copy_from(&h.fixed_rows::<1>(row));
+            // r_t = r_tc + r_c: the axes hang on both alike.
+            for states in [idx::R_TC.start, idx::R_C.start] {
+                if let Some(by_target) = &by_target {
+                    let mut of_axes = stack.h.fixed_view_mut::<1, 6>(at, states);
+                    of_axes += by_target.fixed_rows::<1>(row);
+                }
+            }
         }
         stack.target_rows = stack.rows;
-        stack.sound &= h.iter().chain(predicted).all(|v| v.is_finite());
+        stack.sound &= h.iter().chain(&predicted).all(|v| v.is_finite());
     }
 
     /// What the sensors of the target say at the estimate `x`.
     fn seen(&self, x: &State, sample: &Sample) -> Result<Stack, FilterError> {
         let (r_tc, v_tc) = (part(x, idx::R_TC), part(x, idx::V_TC));
-        let dcm_l_n = frames::lidar_from_body() * sample.dcm_bc_n;
+        let mut scene = Scene {
+            r_tc_n: r_tc,
+            v_tc_n: v_tc,
+            dcm_l_n: frames::lidar_from_body() * sample.dcm_bc_n,
+            lvlh: Vector6::repeat(f64::NAN),
+        };
+        let measured = Sensor::ALL.into_iter().filter_map(|sensor| {
+            self.layout.of_sensor(sensor)?;
+            Some((sensor, sample[sensor].seen()?))
+        });
+        let mut lvlh = None;
         let mut stack = Stack::new();
-        let on_board = |sensor: Sensor| self.layout.of_sensor(sensor).is_some();
-        if let Some(z) = sample.lidar.seen().filter(|_| on_board(Sensor::Lidar)) {
-            self.add(&mut stack, Sensor::Lidar, &z, &sights::lidar(&r_tc, &dcm_l_n));
-        }
-        if let Some(z) = sample.camera.seen().filter(|_| on_board(Sensor::Camera)) {
-            self.add(&mut stack, Sensor::Camera, &z, &sights::camera(&r_tc, &dcm_l_n));
-        }
-        if let Some(z) = sample.radio.seen().filter(|_| on_board(Sensor::Radio)) {
-            self.add(&mut stack, Sensor::Radio, &z, &sights::radio(&r_tc, &v_tc));
-        }
-        if let Some(z) = sample.metrology.seen().filter(|_| on_board(Sensor::Metrology)) {
-            let six = |r: Vector3<f64>, v: Vector3<f64>| Vector6::new(r.x, r.y, r.z, v.x, v.y, v.z);
-            let target = six(r_tc + part(x, idx::R_C), v_tc + part(x, idx::V_C));
-            let seen = |target: &Vector6<f64>| {
-                let axes = self.target_axes(target, &part(x, idx::A_T));
-                sights::metrology(&six(r_tc, v_tc), &axes, &self.units)
-            };
-            let first = stack.rows;
-            self.add(&mut stack, Sensor::Metrology, &z, &seen(&target)?);
-            // r_t = r_tc + r_c: the axes hang on both alike.
-            let of_axes = sights::of_axes(&target, &self.units, |target| Ok(seen(target)?.0))?;
-            for states in [idx::R_TC.start, idx::R_C.start] {
-                let mut rows = stack.h.fixed_view_mut::<6, 6>(first, states);
-                rows += of_axes;
+        for (sensor, z) in measured {
+            if sensors::of(sensor).in_lvlh() && lvlh.is_none() {
+                let in_lvlh = self.in_lvlh(x)?;
+                scene.lvlh = in_lvlh.state;
+                lvlh = Some(in_lvlh);
             }
+            self.add(&mut stack, sensor, &z, &scene, lvlh.as_ref());
         }
         if stack.sound {
             return Ok(stack);
@@ -182,6 +190,15 @@ impl InertialState {
             t_s: sample.time,
             range_m: r_tc.norm() * self.units.length,
         })
+    }
+
+    /// The relative state in the LVLH axes of the estimated target.
+    fn in_lvlh(&self, x: &State) -> Result<InLvlh, AstroError> {
+        let six = |r: Vector3<f64>, v: Vector3<f64>| Vector6::new(r.x, r.y, r.z, v.x, v.y, v.z);
+        let (r_tc, v_tc) = (part(x, idx::R_TC), part(x, idx::V_TC));
+        let target = six(r_tc + part(x, idx::R_C), v_tc + part(x, idx::V_C));
+        let axes = |target: &Vector6<f64>| self.target_axes(target, &part(x, idx::A_T));
+        InLvlh::new(&six(r_tc, v_tc), &target, &self.units, axes)
     }
 
     /// Axes of the target's orbit, for a target at this position with this velocity.
@@ -259,8 +276,9 @@ fn update<const M: usize>(core: &mut Gaussian, stack: &Stack, step: &mut Step) -
     Ok(nis)
 }
 
-/// Every number of rows has its update: those of the sensors, and three of the accelerometer's bias.
-const _: () = assert!(MAX_ROWS + 3 == 16);
+/// Every number of rows has its update: those of the sensors, and three of the accelerometer's bias. Whoever adds a sensor beyond
+/// this makes the list in `update` longer.
+const _: () = assert!(MOST <= 24);
 
 /// Calls [`update`] with as many rows as a stack has.
 macro_rules! update_rows {
@@ -356,8 +374,8 @@ impl Estimator for InertialState {
         }
         let Some(core) = &mut self.core else { return Ok(None) };
         step.p_prior.copy_from(&core.p.fixed_view::<9, 9>(0, 0));
-        let nis =
-            update_rows!(core, stack, step; 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16).map_err(|e| e.at(sample.time))?;
+        let nis = update_rows!(core, stack, step; 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24)
+            .map_err(|e| e.at(sample.time))?;
         for (row, place) in stack.places[..stack.target_rows].iter().enumerate() {
             step.measured.mark(*place..place + 1);
             step.innovation[*place] = stack.innovation[row];

@@ -293,10 +293,11 @@ mod tests {
     use super::*;
     use crate::laws::correlation::tests::{oblique, watched};
     use crate::laws::correlation::{Observation, Sampled};
-    use crate::layout::{Layout, Sensor};
+    use crate::layout::Layout;
     use crate::state::RowVector;
     use crate::tunable::{Tunables, Value};
     use crate::units::Units;
+    use interface::Sensor;
     use nalgebra::{Rotation3, Vector6};
 
     /// The law with tunables of these names set, the last of a name, the others at their start.

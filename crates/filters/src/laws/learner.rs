@@ -110,9 +110,10 @@ impl Learner {
 mod tests {
     use super::*;
     use crate::laws::{FILTERS, FilterEntry};
-    use crate::layout::{Layout, Measured, Sensor};
+    use crate::layout::{Layout, Measured};
     use crate::state::{RowVector, Target, TargetMatrix};
     use crate::tunable::{Tunables, Value};
+    use interface::Sensor;
 
     fn learner(units: Units, state_measured: bool, error: usize) -> Learner {
         let entry: &FilterEntry = FILTERS.iter().find(|f| f.name == "rbfnn_ekf").unwrap();

@@ -226,10 +226,11 @@ impl Adaptation for Milton {
 mod tests {
     use super::*;
     use crate::laws::correlation::{self, Sampled};
-    use crate::layout::{Layout, Measured, Sensor};
+    use crate::layout::{Layout, Measured};
     use crate::state::{RowMatrix, RowVector, Rows, Target};
     use crate::tunable::{Tunables, Value};
     use crate::units::Units;
+    use interface::Sensor;
     use nalgebra::{DMatrix, DVector};
     use numerics::{Generator, expm};
 

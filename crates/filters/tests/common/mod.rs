@@ -7,6 +7,7 @@
 use filters::dynamics::{Drive, Thrust, TwoVehicles, initial_covariance};
 use filters::state::State;
 use filters::{Gravity, Reading, Sample, SpecificForce, jerk};
+use interface::Sensor;
 use interface::mission::InitialSigma;
 use nalgebra::{Matrix3, Vector3};
 use numerics::{Generator, Source, stream};
@@ -113,11 +114,12 @@ impl OwnWorld {
         let sigma = Vector3::new(SIGMA_RANGE, SIGMA_ANGLE, SIGMA_ANGLE);
         let noise = normal3(&mut self.g).component_mul(&sigma);
         let alpha = dcm_bc_n * force(self.k) + self.x.fixed_rows::<3>(15) + normal3(&mut self.g) * SIGMA_ACCELEROMETER;
-        Sample {
-            lidar: Reading::Seen(sensors::lidar::measure(&rho) + noise),
+        let mut sample = Sample {
             accelerometer: Some(SpecificForce::Instant(alpha)),
             dcm_bc_n,
             ..Sample::blank(self.k, f64::from(self.k))
-        }
+        };
+        sample[Sensor::Lidar] = Reading::of((sensors::lidar::measure(&rho) + noise).as_slice());
+        sample
     }
 }

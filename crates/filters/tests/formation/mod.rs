@@ -8,6 +8,7 @@ use crate::common::OwnWorld;
 use astro::{ClohessyWiltshire, Elements, J2RelativeMotion, Lvlh, TargetOrbit};
 use filters::state::State;
 use filters::{Reading, Sample};
+use interface::Sensor;
 use nalgebra::{SVector, Vector6};
 use numerics::{Generator, Source, rk4, stream};
 use rand_distr::{Distribution, StandardNormal};
@@ -95,11 +96,12 @@ impl World for Formation {
         let model = self.model;
         self.x = rk4::step(0.0, &self.x, 1.0, |_, y| model.rate(y));
         self.k += 1;
-        Sample {
-            metrology: Reading::Seen(self.measured()),
+        let mut sample = Sample {
             target_orbit: self.orbit(),
             ..Sample::blank(self.k, f64::from(self.k))
-        }
+        };
+        sample[Sensor::Metrology] = Reading::of(self.measured().as_slice());
+        sample
     }
 
     fn truth(&self) -> SVector<f64, 9> {

@@ -3,7 +3,7 @@
 use filters::state::State;
 use filters::{Reading, Sample, SpecificForce};
 use interface::Navigation;
-use nalgebra::{Matrix3, SVector, Vector2, Vector3, Vector6};
+use nalgebra::{Matrix3, SVector, Vector3, Vector6};
 use numerics::{Generator, Source, rk4, stream};
 use rand_distr::{Distribution, StandardNormal};
 
@@ -143,36 +143,26 @@ impl Flight {
 
     fn sample(&mut self, t: f64) -> Option<Sample> {
         let told = self.told.clone();
-        let (lidar, camera) = (told.lidar, told.camera);
-        let (radio, metrology, accelerometer) = (told.radio, told.metrology, told.accelerometer);
         let mut sample = Sample::blank(self.samples + 1, t);
         sample.dcm_bc_n = self.attitude();
-        let (r, v) = (self.part(0) - self.part(6), self.part(3) - self.part(9));
-        let rho_l = astro::frames::lidar_from_body() * sample.dcm_bc_n * r;
-        let seen = sensors::lidar::measure(&rho_l);
+        let (r_t, v_t) = (self.part(0), self.part(3));
+        let lvlh = astro::Lvlh::new(&r_t, &v_t, &(self.gravity)(t, &r_t, &v_t));
+        let (rho, rho_dot) = lvlh.relative(&self.part(6), &self.part(9));
+        let scene = sensors::Scene {
+            r_tc_n: r_t - self.part(6),
+            v_tc_n: v_t - self.part(9),
+            dcm_l_n: astro::frames::lidar_from_body() * sample.dcm_bc_n,
+            lvlh: sensors::metrology::measure(&rho, &rho_dot),
+        };
         let mut any = false;
-        if let Some(s) = lidar.filter(|s| due(t, Some(s.period_s))) {
-            let z = seen + self.noise([s.sigma_range_m, s.sigma_angle_rad, s.sigma_angle_rad]);
-            (sample.lidar, any) = (Reading::Seen(z), true);
+        for known in told.sensors.iter().filter(|known| due(t, Some(known.period_s))) {
+            let mut z = sensors::of(known.sensor).measure(&scene);
+            for (z, sigma) in z.iter_mut().zip(known.deviations()) {
+                *z += self.noise([sigma])[0];
+            }
+            (sample[known.sensor], any) = (Reading::Seen(z), true);
         }
-        if let Some(s) = camera.filter(|s| due(t, Some(s.period_s))) {
-            let z = Vector2::new(seen.y, seen.z) + self.noise([s.sigma_angle_rad; 2]);
-            (sample.camera, any) = (Reading::Seen(z), true);
-        }
-        if let Some(s) = radio.filter(|s| due(t, Some(s.period_s))) {
-            let z =
-                Vector2::new(r.norm(), r.dot(&v) / r.norm()) + self.noise([s.sigma_range_m, s.sigma_range_rate_m_s]);
-            (sample.radio, any) = (Reading::Seen(z), true);
-        }
-        if let Some(s) = metrology.filter(|s| due(t, Some(s.period_s))) {
-            let (r_t, v_t) = (self.part(0), self.part(3));
-            let lvlh = astro::Lvlh::new(&r_t, &v_t, &(self.gravity)(t, &r_t, &v_t));
-            let (rho, rho_dot) = lvlh.relative(&self.part(6), &self.part(9));
-            let (p, w) = (s.sigma_position_m, s.sigma_velocity_m_s);
-            let z = sensors::metrology::measure(&rho, &rho_dot) + self.noise([p, p, p, w, w, w]);
-            (sample.metrology, any) = (Reading::Seen(z), true);
-        }
-        if let Some(s) = accelerometer.filter(|s| due(t, Some(s.period_s))) {
+        if let Some(s) = told.accelerometer.filter(|s| due(t, Some(s.period_s))) {
             let mean = sample.dcm_bc_n * self.felt.0 / self.felt.1.max(1.0);
             self.felt = (Vector3::zeros(), 0.0);
             let alpha = mean + BIAS + self.noise([s.sigma_m_s2; 3]);

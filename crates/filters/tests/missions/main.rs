@@ -10,6 +10,7 @@ use filters::tunable::{Kind, Start, Value};
 use filters::{Navigation, Navigator, Reading, Settings, Status};
 use flight::{Flight, Push};
 use interface::Mission;
+use interface::Sensor;
 use interface::mission::EMBEDDED;
 use nalgebra::{Vector3, Vector6};
 
@@ -215,10 +216,10 @@ fn due_and_lost_is_a_dropout_and_not_due_is_none() {
     let mut next = |nav: &mut Navigator, lost: bool| {
         let mut sample = flight.next();
         if lost {
-            sample.lidar = Reading::Lost;
+            sample[Sensor::Lidar] = Reading::Lost;
         }
         nav.process(&sample, &start).unwrap();
-        (sample.lidar.is_due(), nav.status(), nav.innovation().rows)
+        (sample[Sensor::Lidar].is_due(), nav.status(), nav.innovation().rows)
     };
     assert_eq!(next(&mut nav, false), (false, Status::Initialising, 0));
     assert_eq!(next(&mut nav, false), (true, Status::Tracking, 3));
@@ -252,7 +253,7 @@ fn harmonics_are_in_the_filters_gravity() {
     let mut nav = navigator(&told, "snc", "q", 1e-9);
     for _ in 0..90 {
         let mut sample = flight.next();
-        sample.lidar = Reading::Lost;
+        sample[Sensor::Lidar] = Reading::Lost;
         nav.process(&sample, &exact).unwrap();
     }
     let miss = (nav.estimate().x.fixed_rows::<3>(0) - flight.relative().fixed_rows::<3>(0)).norm();

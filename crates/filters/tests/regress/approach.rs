@@ -3,6 +3,7 @@
 use super::formation::World;
 use filters::state::State;
 use filters::{Reading, Sample, SpecificForce};
+use interface::Sensor;
 use nalgebra::{SVector, Vector3, Vector6};
 use numerics::{Generator, Source, rk4, stream};
 use rand_distr::{Distribution, StandardNormal};
@@ -78,12 +79,13 @@ impl World for Approach {
         let noise = self.normal().component_mul(&Vector3::new(0.08, 7e-4, 7e-4));
         let lidar = sensors::lidar::measure(&(astro::frames::lidar_from_body() * dcm_bc_n * r_tc)) + noise;
         let alpha_c_bc = dcm_bc_n * self.force() + BIAS + self.normal() * 3.4e-6;
-        Sample {
-            lidar: Reading::Seen(lidar),
+        let mut sample = Sample {
             accelerometer: Some(SpecificForce::Instant(alpha_c_bc)),
             dcm_bc_n,
             ..Sample::blank(self.k, f64::from(self.k))
-        }
+        };
+        sample[Sensor::Lidar] = Reading::of(lidar.as_slice());
+        sample
     }
 
     fn truth(&self) -> SVector<f64, 9> {

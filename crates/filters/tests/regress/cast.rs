@@ -62,5 +62,5 @@ fn world(mission: &str) -> (Box<dyn World>, State) {
 
 /// Nothing is seen of the target.
 pub fn lose(sample: &mut Sample) {
-    (sample.lidar, sample.metrology) = (Reading::Lost, Reading::Lost);
+    sample.sensors.fill(Reading::Lost);
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::events::{Distribution, FirstTable, Which};
 use super::{
-    At, Axes, Body, Burn, First, Frame, Gravity, Magnitude, Mission, Orbit, Profile, UnitsChoice, Vehicle, Vent,
+    At, Axes, Body, Burn, First, Frame, Gravity, Magnitude, Mission, Orbit, Profile, Sensor, UnitsChoice, Vehicle, Vent,
 };
 use crate::bound::Bound;
 
@@ -570,7 +570,11 @@ impl Check {
     fn sensors(&mut self, mission: &Mission) {
         let s = &mission.sensors;
         if !s.see_the_target() {
-            self.say("sensors", "no sensor sees the target: give [sensors.lidar], [sensors.camera], [sensors.radio] or [sensors.metrology]");
+            let what = format!(
+                "no sensor sees the target: give one at least of {}",
+                tables(&Sensor::ALL)
+            );
+            self.say("sensors", what);
         }
         if s.metrology.is_some() && mission.environment.gravity.cr3bp().is_some() {
             self.say(
@@ -578,64 +582,48 @@ impl Check {
                 "sensors.metrology: it measures in the axes of an orbit about one body, which the three-body problem has not",
             );
         }
-        let angles_alone = s.camera.is_some() && s.lidar.is_none() && s.radio.is_none() && s.metrology.is_none();
+        let angles_alone = s.see_the_target() && !s.of_the_target().any(|x| x.sensor.tells_distance());
         let moves = s.accelerometer.is_some() || mission.burns.iter().any(|b| b.vehicle == Which::Chaser);
         if angles_alone && !moves {
-            self.say("sensors.camera", "angles alone do not show the distance of a target unless the chaser manoeuvres: add a radio, a LiDAR or a burn of the chaser");
+            let others: Vec<Sensor> = Sensor::ALL.into_iter().filter(|x| x.tells_distance()).collect();
+            let what = format!(
+                "angles alone do not show the distance of a target unless the chaser manoeuvres: add one of {}, or a burn of the chaser",
+                tables(&others)
+            );
+            self.say("sensors", what);
         }
-        let faults = [
-            ("lidar", s.lidar.map(|x| (x.period_s, x.faults()))),
-            ("camera", s.camera.map(|x| (x.period_s, x.faults()))),
-            ("radio", s.radio.map(|x| (x.period_s, x.faults()))),
-            ("metrology", s.metrology.map(|x| (x.period_s, x.faults()))),
-        ];
-        for (name, sensor) in faults {
-            let Some((period, f)) = sensor else { continue };
+        for sensor in s.of_the_target() {
+            let name = sensor.sensor.name();
             let path = |key: &str| format!("sensors.{name}.{key}");
-            self.hold_some(path("period_s"), period, Bound::AtLeast(1e-3));
-            if period.unwrap_or(mission.time.sample_period_s) > mission.time.duration_s {
+            self.hold_some(path("period_s"), sensor.period_s, Bound::AtLeast(1e-3));
+            if sensor.period_s.unwrap_or(mission.time.sample_period_s) > mission.time.duration_s {
                 let what = format!(
                     "sensors.{name} never samples: its period is longer than the run ({} s)",
                     mission.time.duration_s
                 );
                 self.say(path("period_s"), what);
             }
-            self.hold(path("max_range_m"), f.max_range_m, Bound::Positive);
-            self.hold(path("dropout_probability"), f.dropout_probability, Bound::Fraction);
-            self.hold(path("outlier_probability"), f.outlier_probability, Bound::Fraction);
-            self.hold(path("outlier_scale"), f.outlier_scale, Bound::NonNegative);
-        }
-        let sigmas = [
-            ("lidar.sigma_range_m", s.lidar.map(|x| x.sigma_range_m)),
-            ("lidar.sigma_angle_deg", s.lidar.map(|x| x.sigma_angle_deg)),
-            ("camera.sigma_angle_deg", s.camera.map(|x| x.sigma_angle_deg)),
-            ("radio.sigma_range_m", s.radio.map(|x| x.sigma_range_m)),
-            ("radio.sigma_range_rate_m_s", s.radio.map(|x| x.sigma_range_rate_m_s)),
-            ("metrology.sigma_position_m", s.metrology.map(|x| x.sigma_position_m)),
-            (
-                "metrology.sigma_velocity_m_s",
-                s.metrology.map(|x| x.sigma_velocity_m_s),
-            ),
-            ("accelerometer.sigma_m_s2", s.accelerometer.map(|x| x.sigma_m_s2)),
-            (
-                "accelerometer.bias_sigma_m_s2",
-                s.accelerometer.map(|x| x.bias_sigma_m_s2),
-            ),
-        ];
-        for (key, sigma) in sigmas {
-            self.hold_some(format!("sensors.{key}"), sigma, Bound::NonNegative);
-        }
-        for (key, view) in [
-            ("lidar", s.lidar.map(|x| x.field_of_view_deg)),
-            ("camera", s.camera.map(|x| x.field_of_view_deg)),
-        ] {
-            if view.is_some_and(|deg| !(deg > 0.0 && deg < 180.0)) {
-                let path = format!("sensors.{key}.field_of_view_deg");
+            let faults = sensor.faults;
+            self.hold(path("max_range_m"), faults.max_range_m, Bound::Positive);
+            self.hold(path("dropout_probability"), faults.dropout_probability, Bound::Fraction);
+            self.hold(path("outlier_probability"), faults.outlier_probability, Bound::Fraction);
+            self.hold(path("outlier_scale"), faults.outlier_scale, Bound::NonNegative);
+            for (sigma, value) in sensor.sensor.sigmas().iter().zip(&sensor.sigmas) {
+                self.hold(path(sigma.key), *value, Bound::NonNegative);
+            }
+            if sensor.field_of_view_deg.is_some_and(|deg| !(deg > 0.0 && deg < 180.0)) {
+                let path = path("field_of_view_deg");
                 self.say(path.clone(), format!("{path}: it must be above 0 and below 180 deg"));
             }
         }
         if let Some(a) = s.accelerometer {
             self.hold_some("sensors.accelerometer.period_s", a.period_s, Bound::AtLeast(1e-3));
+            self.hold("sensors.accelerometer.sigma_m_s2", a.sigma_m_s2, Bound::NonNegative);
+            self.hold(
+                "sensors.accelerometer.bias_sigma_m_s2",
+                a.bias_sigma_m_s2,
+                Bound::NonNegative,
+            );
             self.hold(
                 "sensors.accelerometer.bias_time_constant_s",
                 a.bias_time_constant_s,
@@ -686,14 +674,16 @@ impl Check {
                     "navigation.frame = \"lvlh\" needs [sensors.metrology], which measures in those axes",
                 );
             }
-            for (name, on_board) in [
-                ("lidar", mission.sensors.lidar.is_some()),
-                ("camera", mission.sensors.camera.is_some()),
-                ("radio", mission.sensors.radio.is_some()),
-            ] {
-                if on_board {
-                    self.say(format!("sensors.{name}"), format!("sensors.{name}: a filter with navigation.frame = \"lvlh\" uses the metrology alone; take the sensor out or choose frame = \"inertial\""));
-                }
+            for sensor in mission
+                .sensors
+                .of_the_target()
+                .filter(|x| x.sensor != Sensor::Metrology)
+            {
+                let path = format!("sensors.{}", sensor.sensor.name());
+                let what = format!(
+                    "{path}: a filter with navigation.frame = \"lvlh\" uses the metrology alone; take the sensor out or choose frame = \"inertial\""
+                );
+                self.say(path, what);
             }
             if cr3bp {
                 self.say(
@@ -722,14 +712,12 @@ impl Check {
             self.hold_some(format!("{section}.sigma_bias_m_s2"), p0.sigma_bias_m_s2, bound);
         }
         let b = &n.sensors;
+        for sensor in Sensor::ALL {
+            for (sigma, value) in sensor.sigmas().iter().zip(b.of(sensor)) {
+                self.hold_some(format!("navigation.sensors.{}", sigma.believed), value, Bound::Positive);
+            }
+        }
         for (key, value) in [
-            ("lidar_sigma_range_m", b.lidar_sigma_range_m),
-            ("lidar_sigma_angle_deg", b.lidar_sigma_angle_deg),
-            ("camera_sigma_angle_deg", b.camera_sigma_angle_deg),
-            ("radio_sigma_range_m", b.radio_sigma_range_m),
-            ("radio_sigma_range_rate_m_s", b.radio_sigma_range_rate_m_s),
-            ("metrology_sigma_position_m", b.metrology_sigma_position_m),
-            ("metrology_sigma_velocity_m_s", b.metrology_sigma_velocity_m_s),
             ("accelerometer_sigma_m_s2", b.accelerometer_sigma_m_s2),
             (
                 "accelerometer_bias_time_constant_s",
@@ -776,6 +764,12 @@ impl Check {
             }
         }
     }
+}
+
+/// The tables of sensors, for a message: "[sensors.lidar], [sensors.camera]".
+fn tables(sensors: &[Sensor]) -> String {
+    let tables: Vec<String> = sensors.iter().map(|sensor| sensor.table()).collect();
+    tables.join(", ")
 }
 
 /// Whether a gravity turns with the body's axes: the world's or the one that the filter knows.

@@ -33,11 +33,13 @@ pub use environment::{
 pub use error::{MissionError, Problem};
 pub use events::{Axes, Burn, Distribution, First, FirstTable, Magnitude, Profile, Vent, Which};
 pub use navigation::{
-    BelievedSensors, Frame, InitialSigma, KnownAccelerometer, KnownCamera, KnownLidar, KnownMetrology, KnownRadio,
-    Navigation, NavigationSection, P0, Scale, Told, Units, UnitsChoice,
+    Frame, InitialSigma, KnownAccelerometer, KnownSensor, Navigation, NavigationSection, P0, Scale, Told, Units,
+    UnitsChoice,
 };
 pub use schema::{schema, schema_value};
-pub use sensors::{Accelerometer, AccelerometerOutput, Camera, Faults, Lidar, Metrology, Radio, Sensors};
+pub use sensors::{
+    Accelerometer, AccelerometerOutput, BelievedSensors, Faults, OnBoard, Quantity, Sensor, Sensors, Sigma,
+};
 pub use study::{Phase, ResultAxes, Study};
 pub use vehicles::{At, Attitude, Elements, Orbit, Relative, RelativeAxes, StateVector, Vehicle};
 

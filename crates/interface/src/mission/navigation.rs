@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::events::{Axes, Which};
-use super::{AccelerometerOutput, Gravity, Mission, Sensors};
+use super::{AccelerometerOutput, BelievedSensors, Gravity, Mission, Sensor};
 
 /// What the filter is told, as the file states it; what it leaves out is the world's.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -81,45 +81,6 @@ pub struct P0 {
     pub sigma_bias_m_s2: Option<f64>,
 }
 
-/// Noises that the filter believes in, each absent where it is the sensor's own.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct BelievedSensors {
-    /// Of the LiDAR's range, m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lidar_sigma_range_m: Option<f64>,
-    /// Of the LiDAR's angles, deg.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lidar_sigma_angle_deg: Option<f64>,
-    /// Of the camera's angles, deg.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub camera_sigma_angle_deg: Option<f64>,
-    /// Of the radio's range, m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub radio_sigma_range_m: Option<f64>,
-    /// Of the radio's range rate, m/s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub radio_sigma_range_rate_m_s: Option<f64>,
-    /// Of the metrology's position, m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub metrology_sigma_position_m: Option<f64>,
-    /// Of the metrology's velocity, m/s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub metrology_sigma_velocity_m_s: Option<f64>,
-    /// Of an accelerometer sample, m/s2.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub accelerometer_sigma_m_s2: Option<f64>,
-    /// That the accelerometer's bias walk gains in 1 s, m/s2.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub accelerometer_bias_sigma_m_s2: Option<f64>,
-    /// Time constant of the accelerometer's bias, s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub accelerometer_bias_time_constant_s: Option<f64>,
-    /// Readings of at least this norm drive the propagation, smaller ones observe the bias, m/s2.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub accelerometer_gate_m_s2: Option<f64>,
-}
-
 /// Size of what the filter's dynamics leave out.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -186,46 +147,22 @@ pub struct Told {
     pub axes: Axes,
 }
 
-/// A LiDAR as a filter knows it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct KnownLidar {
+/// A sensor of the target as a filter knows it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct KnownSensor {
+    /// Which.
+    pub sensor: Sensor,
     /// Time between samples, s.
     pub period_s: f64,
-    /// Of the range, m.
-    pub sigma_range_m: f64,
-    /// Of both angles, rad.
-    pub sigma_angle_rad: f64,
+    /// Standard deviations in the order of [`Sensor::sigmas`], SI and radians.
+    pub sigmas: Vec<f64>,
 }
 
-/// A camera as a filter knows it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct KnownCamera {
-    /// Time between samples, s.
-    pub period_s: f64,
-    /// Of both angles, rad.
-    pub sigma_angle_rad: f64,
-}
-
-/// A radio link as a filter knows it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct KnownRadio {
-    /// Time between samples, s.
-    pub period_s: f64,
-    /// Of the range, m.
-    pub sigma_range_m: f64,
-    /// Of the range rate, m/s.
-    pub sigma_range_rate_m_s: f64,
-}
-
-/// A metrology as a filter knows it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct KnownMetrology {
-    /// Time between samples, s.
-    pub period_s: f64,
-    /// Of the position, m.
-    pub sigma_position_m: f64,
-    /// Of the velocity, m/s.
-    pub sigma_velocity_m_s: f64,
+impl KnownSensor {
+    /// Standard deviation of each row, SI and radians.
+    pub fn deviations(&self) -> impl Iterator<Item = f64> {
+        self.sensor.by_row(&self.sigmas)
+    }
 }
 
 /// An accelerometer as a filter knows it.
@@ -270,14 +207,8 @@ pub struct Navigation {
     pub reference_orbit_a_m: Option<f64>,
     /// Initial standard deviations.
     pub p0: InitialSigma,
-    /// LiDAR.
-    pub lidar: Option<KnownLidar>,
-    /// Camera.
-    pub camera: Option<KnownCamera>,
-    /// Radio link.
-    pub radio: Option<KnownRadio>,
-    /// Metrology.
-    pub metrology: Option<KnownMetrology>,
+    /// Sensors of the target that are on board, in the order of [`Sensor::ALL`].
+    pub sensors: Vec<KnownSensor>,
     /// Accelerometer.
     pub accelerometer: Option<KnownAccelerometer>,
     /// Manoeuvres that the filter knows of.
@@ -289,6 +220,17 @@ pub struct Navigation {
 }
 
 impl Navigation {
+    /// A sensor of the target; `None` when it is not on board.
+    pub fn sensor(&self, sensor: Sensor) -> Option<&KnownSensor> {
+        self.sensors.iter().find(|known| known.sensor == sensor)
+    }
+
+    /// A deviation of a sensor of the target, to be changed, by its place in [`Sensor::sigmas`]; `None` likewise.
+    pub fn sigma_mut(&mut self, sensor: Sensor, place: usize) -> Option<&mut f64> {
+        let known = self.sensors.iter_mut().find(|known| known.sensor == sensor);
+        known?.sigmas.get_mut(place)
+    }
+
     /// The start value that the mission states for a tunable, by full name.
     pub fn law(&self, name: &str) -> Option<f64> {
         self.law.get(name).copied()
@@ -320,13 +262,6 @@ fn positive_or(value: f64, least: f64) -> f64 {
 
 pub(super) fn resolve(mission: &Mission) -> Navigation {
     let section = &mission.navigation;
-    let Sensors {
-        lidar,
-        camera,
-        radio,
-        metrology,
-        accelerometer,
-    } = &mission.sensors;
     let believed = &section.sensors;
     let period = |own: Option<f64>| own.unwrap_or(mission.time.sample_period_s);
     let units = match (section.units, mission.environment.gravity.cr3bp()) {
@@ -375,29 +310,19 @@ pub(super) fn resolve(mission: &Mission) -> Navigation {
             .or_else(|| a_of(&mission.target))
             .or_else(|| a_of(&mission.chaser)),
         p0,
-        lidar: lidar.map(|s| KnownLidar {
-            period_s: period(s.period_s),
-            sigma_range_m: believed.lidar_sigma_range_m.unwrap_or(s.sigma_range_m),
-            sigma_angle_rad: believed.lidar_sigma_angle_deg.unwrap_or(s.sigma_angle_deg).to_radians(),
-        }),
-        camera: camera.map(|s| KnownCamera {
-            period_s: period(s.period_s),
-            sigma_angle_rad: believed
-                .camera_sigma_angle_deg
-                .unwrap_or(s.sigma_angle_deg)
-                .to_radians(),
-        }),
-        radio: radio.map(|s| KnownRadio {
-            period_s: period(s.period_s),
-            sigma_range_m: believed.radio_sigma_range_m.unwrap_or(s.sigma_range_m),
-            sigma_range_rate_m_s: believed.radio_sigma_range_rate_m_s.unwrap_or(s.sigma_range_rate_m_s),
-        }),
-        metrology: metrology.map(|s| KnownMetrology {
-            period_s: period(s.period_s),
-            sigma_position_m: believed.metrology_sigma_position_m.unwrap_or(s.sigma_position_m),
-            sigma_velocity_m_s: believed.metrology_sigma_velocity_m_s.unwrap_or(s.sigma_velocity_m_s),
-        }),
-        accelerometer: accelerometer.map(|s| KnownAccelerometer {
+        sensors: mission
+            .sensors
+            .of_the_target()
+            .map(|own| KnownSensor {
+                sensor: own.sensor,
+                period_s: period(own.period_s),
+                sigmas: (own.sensor.sigmas().iter().zip(&own.sigmas))
+                    .zip(believed.of(own.sensor))
+                    .map(|((sigma, own), believed)| sigma.quantity.to_si(believed.unwrap_or(*own)))
+                    .collect(),
+            })
+            .collect(),
+        accelerometer: mission.sensors.accelerometer.map(|s| KnownAccelerometer {
             period_s: period(s.period_s),
             output: s.output,
             sigma_m_s2: believed.accelerometer_sigma_m_s2.unwrap_or(s.sigma_m_s2),

@@ -21,15 +21,8 @@ impl Mission {
         };
         let held = period(accelerometer.period_s);
         let on_grid = |t: f64| (t - (t / held).round() * held).abs() <= SAME;
-        let fastest = [
-            self.sensors.lidar.map(|s| period(s.period_s)),
-            self.sensors.camera.map(|s| period(s.period_s)),
-            self.sensors.radio.map(|s| period(s.period_s)),
-            self.sensors.metrology.map(|s| period(s.period_s)),
-        ]
-        .into_iter()
-        .flatten()
-        .fold(f64::INFINITY, f64::min);
+        let target = self.sensors.of_the_target();
+        let fastest = target.map(|s| period(s.period_s)).fold(f64::INFINITY, f64::min);
         if accelerometer.output == AccelerometerOutput::Instantaneous {
             for burn in self
                 .burns

@@ -21,12 +21,6 @@ pub struct AccelerometerSample {
     pub alpha_c_bc: Vector3<f64>,
 }
 
-impl AccelerometerSample {
-    pub(super) fn not_due(&mut self) {
-        self.valid = false;
-    }
-}
-
 /// The sensor with its generator.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Accelerometer {

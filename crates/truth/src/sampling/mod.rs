@@ -1,27 +1,26 @@
-//! Samples of the chaser's sensors, with their noise and faults: one file for each sensor.
+//! Samples of the chaser's sensors, with their noise and faults: the accelerometer, and whatever sees the target.
 //!
 //! A sensor samples at whole multiples of its own period. Every sample draws from each stream of its sensor, whatever the
 //! parameters, so that no setting moves the draws of another cause, of another sensor or of a later sample.
 
 mod accelerometer;
-mod camera;
 mod faults;
-mod lidar;
-mod metrology;
-mod radio;
+mod of_target;
+
+use std::ops::Index;
 
 use astro::TargetOrbit;
+use interface::Sensor;
 use interface::mission::AccelerometerOutput;
+use interface::signals::Seen;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::overrides::Run;
+use accelerometer::Accelerometer;
+use of_target::OfTarget;
 
 pub use accelerometer::AccelerometerSample;
-pub use camera::CameraSample;
-pub use lidar::LidarSample;
-pub use metrology::MetrologySample;
-pub use radio::RadioSample;
 
 /// Epochs this close are one, s.
 const SAME: f64 = 1e-6;
@@ -33,30 +32,30 @@ pub struct SensorSample {
     pub count: u64,
     /// Epoch, s; 0 before the first.
     pub time: f64,
-    /// LiDAR.
-    pub lidar: LidarSample,
-    /// Camera.
-    pub camera: CameraSample,
-    /// Radio link.
-    pub radio: RadioSample,
-    /// Metrology.
-    pub metrology: MetrologySample,
+    /// What each sensor of the target says, in the order of [`Sensor::ALL`].
+    pub sensors: [Seen; Sensor::COUNT],
     /// Accelerometer.
     pub accelerometer: AccelerometerSample,
-    /// The target's own orbit at the epoch, in missions with metrology; that of the start time before the first sample.
+    /// The target's own orbit at the epoch, in missions with a sensor that measures in its axes; that of the start time before the first sample.
     pub target_orbit: Option<TargetOrbit>,
     /// Attitude of the chaser at the epoch, maps N to body; that of the start time before the first sample.
     pub dcm_bc_n: Matrix3<f64>,
 }
 
-/// The truth at a sample's epoch.
+impl Index<Sensor> for SensorSample {
+    type Output = Seen;
+
+    fn index(&self, sensor: Sensor) -> &Seen {
+        &self.sensors[sensor as usize]
+    }
+}
+
+/// The truth at a sample's epoch, SI.
 pub(crate) struct Scene {
-    /// Target relative to chaser, N, m.
-    pub r_tc_n: Vector3<f64>,
-    /// Its rate of change as seen in N, m/s.
-    pub v_tc_n: Vector3<f64>,
-    /// The relative state as metrology has it, and the target's orbit, where it is on board.
-    pub metrology: Option<(nalgebra::Vector6<f64>, TargetOrbit)>,
+    /// Where the target is.
+    pub target: sensors::Scene,
+    /// The target's orbit, where a sensor measures in its axes.
+    pub target_orbit: Option<TargetOrbit>,
     /// Acceleration of the chaser beside gravity just after the epoch, N, m/s2.
     pub force_c_n: Vector3<f64>,
     /// Mean of that in chaser body axes since the accelerometer's last sample, m/s2, where it measures the mean.
@@ -92,76 +91,70 @@ impl Clock {
     }
 }
 
-macro_rules! sensors {
-    ($($name:ident: $kind:ident),* $(,)?) => {
-        /// The sensors on board, with their clocks and generators.
-        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-        pub(crate) struct Sensors {
-            $($name: Option<(Clock, $kind)>,)*
-        }
-
-        impl Sensors {
-            pub(crate) fn new(run: &Run) -> Self {
-                let period = |own: Option<f64>| own.unwrap_or(run.mission.time.sample_period_s);
-                Self {
-                    $($name: run
-                        .mission
-                        .sensors
-                        .$name
-                        .map(|sensor| (Clock::new(period(sensor.period_s)), $kind::new(&sensor, run))),)*
-                }
-            }
-
-            /// The next epoch at which any sensor samples, s since the start of the run.
-            pub(crate) fn next(&self) -> f64 {
-                let epochs = [$(self.$name.as_ref().map(|(clock, _)| clock.next())),*];
-                epochs.into_iter().flatten().fold(f64::INFINITY, f64::min)
-            }
-
-            /// Takes the sample after `sample`, at `time`, which is `elapsed` seconds after the start of the run.
-            pub(crate) fn sample(&mut self, sample: &mut SensorSample, time: f64, elapsed: f64, scene: &Scene) {
-                sample.count += 1;
-                sample.time = time;
-                $(match &mut self.$name {
-                    Some((clock, sensor)) if clock.due(elapsed) => {
-                        clock.taken += 1;
-                        sensor.sample(&mut sample.$name, scene);
-                    }
-                    _ => sample.$name.not_due(),
-                })*
-                sample.target_orbit = scene.metrology.map(|(_, orbit)| orbit);
-                sample.dcm_bc_n = scene.dcm_bc_n;
-            }
-        }
-
-        impl SensorSample {
-            /// What the outputs show before the first sample.
-            pub(crate) fn before_the_first(scene: &Scene) -> Self {
-                Self {
-                    count: 0,
-                    time: 0.0,
-                    $($name: Default::default(),)*
-                    target_orbit: scene.metrology.map(|(_, orbit)| orbit),
-                    dcm_bc_n: scene.dcm_bc_n,
-                }
-            }
-        }
-    };
+/// The sensors on board, with their clocks and generators.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Sensors {
+    of_target: Vec<(Clock, OfTarget)>,
+    accelerometer: Option<(Clock, Accelerometer)>,
 }
 
-sensors! {
-    lidar: Lidar,
-    camera: Camera,
-    radio: Radio,
-    metrology: Metrology,
-    accelerometer: Accelerometer,
+impl Sensors {
+    pub(crate) fn new(run: &Run) -> Self {
+        let clock = |own: Option<f64>| Clock::new(own.unwrap_or(run.mission.time.sample_period_s));
+        let on_board = &run.mission.sensors;
+        Self {
+            of_target: (on_board.of_the_target())
+                .map(|own| (clock(own.period_s), OfTarget::new(&own, run)))
+                .collect(),
+            accelerometer: (on_board.accelerometer).map(|own| (clock(own.period_s), Accelerometer::new(&own, run))),
+        }
+    }
+
+    /// The next epoch at which any sensor samples, s since the start of the run.
+    pub(crate) fn next(&self) -> f64 {
+        let of_target = self.of_target.iter().map(|(clock, _)| clock.next());
+        let all = of_target.chain(self.accelerometer.as_ref().map(|(clock, _)| clock.next()));
+        all.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Takes the sample after `sample`, at `time`, which is `elapsed` seconds after the start of the run.
+    pub(crate) fn sample(&mut self, sample: &mut SensorSample, time: f64, elapsed: f64, scene: &Scene) {
+        sample.count += 1;
+        sample.time = time;
+        for seen in &mut sample.sensors {
+            (seen.due, seen.valid) = (false, false);
+        }
+        for (clock, of_target) in &mut self.of_target {
+            if clock.due(elapsed) {
+                clock.taken += 1;
+                of_target.sample(&mut sample.sensors[of_target.sensor as usize], &scene.target);
+            }
+        }
+        sample.accelerometer.valid = false;
+        if let Some((clock, accelerometer)) = &mut self.accelerometer
+            && clock.due(elapsed)
+        {
+            clock.taken += 1;
+            accelerometer.sample(&mut sample.accelerometer, scene);
+        }
+        sample.target_orbit = scene.target_orbit;
+        sample.dcm_bc_n = scene.dcm_bc_n;
+    }
 }
 
-use accelerometer::Accelerometer;
-use camera::Camera;
-use lidar::Lidar;
-use metrology::Metrology;
-use radio::Radio;
+impl SensorSample {
+    /// What the outputs show before the first sample.
+    pub(crate) fn before_the_first(scene: &Scene) -> Self {
+        Self {
+            count: 0,
+            time: 0.0,
+            sensors: Default::default(),
+            accelerometer: AccelerometerSample::default(),
+            target_orbit: scene.target_orbit,
+            dcm_bc_n: scene.dcm_bc_n,
+        }
+    }
+}
 
 impl Sensors {
     /// Whether the accelerometer measures the mean, so that someone has to take it.
@@ -175,9 +168,11 @@ impl Sensors {
         self.accelerometer.as_ref().is_some_and(|(clock, _)| clock.due(elapsed))
     }
 
-    /// Whether metrology is on board.
-    pub(crate) fn have_metrology(&self) -> bool {
-        self.metrology.is_some()
+    /// Whether any measures in the axes of the target's orbit, so that someone has to tell it of them.
+    pub(crate) fn measure_in_lvlh(&self) -> bool {
+        self.of_target
+            .iter()
+            .any(|(_, of_target)| sensors::of(of_target.sensor).in_lvlh())
     }
 }
 
@@ -186,12 +181,18 @@ impl Sensors {
 mod tests {
     use super::*;
     use crate::Params;
+    use Sensor::{Camera, Lidar, Metrology, Radio};
+    use nalgebra::Vector6;
 
     fn scene(seen_from_body: [f64; 3]) -> Scene {
         Scene {
-            r_tc_n: seen_from_body.into(),
-            v_tc_n: Vector3::zeros(),
-            metrology: None,
+            target: sensors::Scene {
+                r_tc_n: seen_from_body.into(),
+                v_tc_n: Vector3::zeros(),
+                dcm_l_n: astro::frames::lidar_from_body(),
+                lvlh: Vector6::repeat(f64::NAN),
+            },
+            target_orbit: None,
             force_c_n: Vector3::zeros(),
             mean_force_c_bc: None,
             dcm_bc_n: Matrix3::identity(),
@@ -227,15 +228,13 @@ mod tests {
         let [seen, lost] = seen("", &[[0.0, 20.0, 0.0], [1.0, 20.0, 0.0]])[..] else {
             panic!("two samples")
         };
-        let first = LidarSample {
+        let first = Seen {
             due: true,
             valid: true,
-            range: 20.0,
-            azimuth: 0.0,
-            elevation: 0.0,
+            z: [20.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         };
-        assert_eq!(seen.lidar, first);
-        assert_eq!(lost.lidar, LidarSample { valid: false, ..first });
+        assert_eq!(seen[Lidar], first);
+        assert_eq!(lost[Lidar], Seen { valid: false, ..first });
         assert_eq!((lost.count, lost.time), (2, 2.0));
         assert!(
             lost.accelerometer.alpha_c_bc != seen.accelerometer.alpha_c_bc,
@@ -258,7 +257,7 @@ mod tests {
         );
         let valid: Vec<_> = seen
             .iter()
-            .map(|s| (s.lidar.valid, s.camera.valid, s.radio.valid))
+            .map(|s| (s[Lidar].valid, s[Camera].valid, s[Radio].valid))
             .collect();
         // Ahead; 5.7 deg off; out of the camera's reach; behind; out of the radio's.
         let expected = [
@@ -271,15 +270,15 @@ mod tests {
         assert_eq!(valid, expected);
         assert!(
             seen.iter()
-                .all(|s| s.lidar.due && s.camera.due && s.radio.due && !s.metrology.due)
+                .all(|s| s[Lidar].due && s[Camera].due && s[Radio].due && !s[Metrology].due)
         );
         // 2 m along body x are 2 m along LiDAR y: elevation.
-        assert!((seen[1].camera.elevation - 0.1_f64.atan()).abs() < 1e-15 && seen[1].camera.azimuth == 0.0);
+        assert!((seen[1][Camera].z[1] - 0.1_f64.atan()).abs() < 1e-15 && seen[1][Camera].z[0] == 0.0);
         assert_eq!(
-            seen[3].camera,
-            CameraSample {
+            seen[3][Camera],
+            Seen {
                 valid: false,
-                ..seen[1].camera
+                ..seen[1][Camera]
             }
         );
     }

@@ -13,7 +13,7 @@ use rasciigraph::Config;
 use study::{MISSION, Models, Plan, StudyError, World, rehearse};
 
 use super::super::shared::{Verdict, models, say, scratch};
-use super::flight::{Flight, Point, SENSORS, fly};
+use super::flight::{Flight, Point, fly};
 use crate::HarnessError;
 use crate::cli::MissionCheckArgs;
 
@@ -257,12 +257,13 @@ fn events(mission: &Mission) -> String {
 
 fn sensors(world: &World, flight: &Flight) -> String {
     let mut text = "Sensors".to_owned();
-    for sensor in SENSORS {
-        let Some(seen) = flight.seen.get(sensor) else { continue };
+    for (sensor, seen) in &flight.seen {
         let _ = write!(
             text,
-            "\n  {sensor}: {} samples, target seen in {}",
-            seen.due, seen.valid
+            "\n  {}: {} samples, target seen in {}",
+            sensor.name(),
+            seen.due,
+            seen.valid
         );
         if let (Some((from, to)), Some((near, far))) = (seen.span, seen.range) {
             let _ = write!(

@@ -4,33 +4,25 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use cosim::{RunOptions, StepContext, System};
+use interface::Sensor;
 use nalgebra::Vector3;
 use study::{Assignment, Models, Plan, StudyError, World};
 
 use crate::HarnessError;
 
-/// Sensors that see the target, as the ports are named.
-pub(super) const SENSORS: [&str; 4] = ["lidar", "camera", "radio", "metrology"];
-
 /// Parameters of fmu-truth that are set to zero, so that nothing but the mission's events is left to chance.
-const QUIET: [&str; 16] = [
-    "lidar.sigma_range",
-    "lidar.sigma_angle",
-    "lidar.dropout_probability",
-    "lidar.outlier_probability",
-    "camera.sigma_angle",
-    "camera.dropout_probability",
-    "camera.outlier_probability",
-    "radio.sigma_range",
-    "radio.sigma_range_rate",
-    "radio.dropout_probability",
-    "radio.outlier_probability",
-    "metrology.sigma_position",
-    "metrology.sigma_velocity",
-    "metrology.dropout_probability",
-    "metrology.outlier_probability",
-    "accelerometer.sigma",
-];
+fn quiet() -> impl Iterator<Item = String> {
+    let of_sensor = |sensor: Sensor| {
+        let sigmas = sensor.sigmas().iter().map(|sigma| sigma.name());
+        sigmas
+            .chain(["dropout_probability", "outlier_probability"])
+            .map(move |name| format!("{}.{name}", sensor.name()))
+    };
+    Sensor::ALL
+        .into_iter()
+        .flat_map(of_sensor)
+        .chain(["accelerometer.sigma".to_owned()])
+}
 
 /// Where both vehicles were at one time, axes N, m and m/s.
 #[derive(Debug, Clone, Copy)]
@@ -61,7 +53,7 @@ pub(super) struct Flight {
     /// At the communication points, which are the epochs at which samples can lie.
     pub points: Vec<Point>,
     /// By sensor; those that are not on board are missing.
-    pub seen: BTreeMap<&'static str, Seen>,
+    pub seen: BTreeMap<Sensor, Seen>,
 }
 
 /// Flies a world.
@@ -72,9 +64,7 @@ pub(super) struct Flight {
 /// # Errors
 /// Whatever the FMU refuses.
 pub(super) fn fly(models: &Models, plan: &Plan, world: &World, run: u32) -> Result<Flight, HarnessError> {
-    let quiet = QUIET
-        .iter()
-        .filter_map(|name| format!("fmu-truth.{name}=0").parse().ok());
+    let quiet = quiet().filter_map(|name| format!("fmu-truth.{name}=0").parse().ok());
     let assignments: Vec<Assignment> = plan.in_fmus().cloned().chain(quiet).collect();
     let participant = models.truth_alone(world, &assignments)?;
     let mut system = System::new();
@@ -90,9 +80,9 @@ pub(super) fn fly(models: &Models, plan: &Plan, world: &World, run: u32) -> Resu
     ];
     let count = probe.integer("sample_count").map_err(failed)?;
     let mut flags = Vec::new();
-    for sensor in SENSORS {
-        let due = probe.boolean(&format!("{sensor}.due")).map_err(failed)?;
-        let valid = probe.boolean(&format!("{sensor}.valid")).map_err(failed)?;
+    for sensor in Sensor::ALL {
+        let due = probe.boolean(&format!("{}.due", sensor.name())).map_err(failed)?;
+        let valid = probe.boolean(&format!("{}.valid", sensor.name())).map_err(failed)?;
         flags.push((sensor, due, valid));
     }
     let mut sample = probe.sample();
