@@ -1,10 +1,9 @@
 //! The navigation filters of `crates/filters` as an FMI 2.0 co-simulation slave.
 //!
-//! `variables.rs` is the table of everything a master can see, `beliefs.rs` the part of it that all filters share; `slave.rs`
-//! is what the table reads and writes, around a [`filters::Navigator`]; `model.rs` answers what FMI asks. Behaviour belongs in
-//! `filters`, the C interface in `fmi2-export`; here stands neither.
+//! `variables.rs` is the table of everything a master can see; `slave.rs` is what the table reads and writes, around a
+//! [`filters::Navigator`]; `model.rs` answers what FMI asks. Behaviour belongs in `filters`, the C interface in `fmi2-export`;
+//! here stands neither.
 
-mod beliefs;
 mod model;
 mod slave;
 mod variables;

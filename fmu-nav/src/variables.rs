@@ -3,8 +3,8 @@
 //! Names, units and meanings that outside programs rely on are fixed; more may be added. What belongs to one law stands last,
 //! so that another law changes no other row.
 
-use crate::beliefs::{BELIEFS, Belief, Place};
 use crate::slave::NavModel;
+use filters::beliefs::{BELIEFS, Belief, Place};
 use filters::laws::FILTERS;
 use filters::tunable::{self, Tunable, Value};
 use filters::{Beliefs, Navigator};
@@ -140,14 +140,13 @@ fn belief_row(t: &mut Builder, belief: &'static Belief) {
         name,
         unit,
         bound,
-        own,
         about,
         place,
     } = *belief;
     let mut start = Beliefs::default();
     match place {
         Place::Real(at) => {
-            let start = (!own).then(|| *at(&mut start));
+            let start = (!belief.own()).then(|| *at(&mut start));
             real_parameter(t, name, unit, bound, start, about).rw(
                 move |m| *at(&mut m.settings.beliefs.clone()),
                 move |m, v| *at(&mut m.settings.beliefs) = v,

@@ -1,59 +1,98 @@
-//! What a filter believes of the world, apart from its law: the mission's values but for those that a user sets.
+//! What a filter believes of the world, apart from its law: the mission's values but for those that a user sets. One list, from
+//! which come the values, their check and the FMU's variables.
 
 use crate::error::FilterError;
-use interface::Bound::{Any, NonNegative, Positive};
+use interface::Bound::{self, Any, AtLeast, NonNegative, Positive};
 use interface::mission::{Frame, Gravity};
-use interface::{Bound, Navigation, Sensor};
+use interface::{Navigation, Sensor};
 use serde::{Deserialize, Serialize};
 
-/// Tuning that all laws share, SI. A value of [`Beliefs::OWN`] means "the mission's own".
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Beliefs {
-    /// Initial standard deviation of one vehicle's position, or of the relative one in the LVLH frame, m.
-    pub p0_sigma_position: f64,
-    /// Initial standard deviation of one vehicle's velocity, or of the relative one likewise, m/s.
-    pub p0_sigma_velocity: f64,
-    /// Initial standard deviation of the target's unmodelled acceleration, m/s2.
-    pub p0_sigma_acceleration: f64,
-    /// Initial standard deviation of the accelerometer bias, m/s2.
-    pub p0_sigma_bias: f64,
-    /// White acceleration density of the chaser, m2/s3.
-    pub chaser_q_c: f64,
-    /// Whether the chaser's process noise also enters v_tc with opposite sign.
-    pub chaser_q_coupled: bool,
-    /// Accelerometer readings at or above this norm drive the propagation, those below observe the bias; m/s2.
-    pub accelerometer_gate: f64,
-    /// Inverse time constant of the accelerometer bias, 1/s.
-    pub accelerometer_beta: f64,
-    /// Standard deviation of the bias walk per 1 s, m/s2.
-    pub accelerometer_bias_sigma: f64,
-    /// Standard deviation of the LiDAR's range, m.
-    pub r_sigma_range: f64,
-    /// Standard deviation of the LiDAR's azimuth and elevation, rad.
-    pub r_sigma_angle: f64,
-    /// Standard deviation of an accelerometer sample, m/s2.
-    pub r_sigma_accelerometer: f64,
-    /// Standard deviation of a relative position in LVLH, m.
-    pub r_sigma_position: f64,
-    /// Standard deviation of a relative velocity in LVLH, m/s.
-    pub r_sigma_velocity: f64,
-    /// Semi-major axis of the circular orbit that Clohessy-Wiltshire is written about, m.
-    pub reference_orbit_semi_major_axis: f64,
-    /// Factor on the process noise that a law has (that it starts from, if it adapts) or on an observer's gain: 1 unless
-    /// mistuning is studied.
-    pub off_nominal: f64,
-    /// Two-body and zonal gravity: gravitational parameter, m3/s2.
-    pub gravity_mu: f64,
-    /// Two-body and zonal gravity: reference radius, m.
-    pub gravity_radius: f64,
-    /// Zonal gravity: J2, J3, J4.
-    pub gravity_j: [f64; 3],
-    /// Three-body gravity: mass ratio.
-    pub gravity_mass_ratio: f64,
-    /// Mean normalised NIS above which the filter calls itself diverged.
-    pub divergence_nis: f64,
-    /// Number of samples over which that mean is taken.
-    pub divergence_samples: i32,
+/// Where a belief stands; read and written through the same place.
+#[derive(Clone, Copy)]
+pub enum Place {
+    /// A real number.
+    Real(fn(&mut Beliefs) -> &mut f64),
+    /// A whole number.
+    Integer(fn(&mut Beliefs) -> &mut i32),
+    /// A switch.
+    Boolean(fn(&mut Beliefs) -> &mut bool),
+}
+
+/// A parameter that all filters share.
+pub struct Belief {
+    /// Name of the FMI variable.
+    pub name: &'static str,
+    /// Unit; empty for none.
+    pub unit: &'static str,
+    /// Values that it accepts. It must exclude [`Beliefs::OWN`] where that is the start; that of a zonal coefficient does, and no
+    /// body comes near it.
+    pub bound: Bound,
+    /// Meaning.
+    pub about: &'static str,
+    /// Where its value stands.
+    pub place: Place,
+}
+
+impl Belief {
+    /// Whether it starts at [`Beliefs::OWN`], which leaves it to the mission.
+    pub fn own(&self) -> bool {
+        matches!(self.place, Place::Real(at) if is_own(*at(&mut Beliefs::default())))
+    }
+}
+
+macro_rules! beliefs {
+    ($($field:ident: $kind:ident($type:ty) = $start:expr, $name:literal, $unit:literal, $bound:expr, $about:literal;)+) => {
+        /// Tuning that all laws share, SI. A value of [`Beliefs::OWN`] means "the mission's own".
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        pub struct Beliefs {
+            $(#[doc = $about] pub $field: $type,)+
+        }
+
+        impl Default for Beliefs {
+            /// Everything that the mission states is its own.
+            fn default() -> Self {
+                Self { $($field: $start,)+ }
+            }
+        }
+
+        /// Every belief, in the order of the model description.
+        pub const BELIEFS: &[Belief] = &[$(Belief {
+            name: $name,
+            unit: $unit,
+            bound: $bound,
+            about: $about,
+            place: Place::$kind(|b| &mut b.$field),
+        },)+];
+    };
+}
+
+const OWN: f64 = Beliefs::OWN;
+
+beliefs! {
+    p0_sigma_position: Real(f64) = OWN, "p0.sigma_position", "m", Positive, "initial standard deviation of one vehicle's position per axis, or of the relative one in the LVLH frame";
+    p0_sigma_velocity: Real(f64) = OWN, "p0.sigma_velocity", "m/s", Positive, "initial standard deviation of one vehicle's velocity per axis, or of the relative one in the LVLH frame";
+    p0_sigma_acceleration: Real(f64) = OWN, "p0.sigma_acceleration", "m/s2", Positive, "initial standard deviation of the unmodelled acceleration, per axis";
+    p0_sigma_bias: Real(f64) = OWN, "p0.sigma_bias", "m/s2", Positive, "initial standard deviation of the accelerometer bias, per axis";
+    chaser_q_c: Real(f64) = OWN, "chaser.q_c", "m2/s3", NonNegative, "white acceleration density of the chaser, per axis";
+    chaser_q_coupled: Boolean(bool) = true, "chaser.q_coupled", "", Any, "whether the chaser's process noise also enters v_tc, with opposite sign";
+    accelerometer_gate: Real(f64) = OWN, "accelerometer.gate", "m/s2", NonNegative, "readings of at least this norm drive the propagation, as does a mean that noise cannot account for; others observe the bias";
+    accelerometer_beta: Real(f64) = OWN, "accelerometer.beta", "1/s", NonNegative, "inverse time constant of the accelerometer bias";
+    accelerometer_bias_sigma: Real(f64) = OWN, "accelerometer.bias_sigma", "m/s2", NonNegative, "standard deviation of the bias walk per 1 s";
+    r_sigma_range: Real(f64) = OWN, "r.sigma_range", "m", Positive, "standard deviation of the range";
+    r_sigma_angle: Real(f64) = OWN, "r.sigma_angle", "rad", Positive, "standard deviation of azimuth and elevation";
+    r_sigma_accelerometer: Real(f64) = OWN, "r.sigma_accelerometer", "m/s2", Positive, "standard deviation of an accelerometer sample, per axis";
+    r_sigma_position: Real(f64) = OWN, "r.sigma_position", "m", Positive, "standard deviation of a relative position in LVLH, per axis";
+    r_sigma_velocity: Real(f64) = OWN, "r.sigma_velocity", "m/s", Positive, "standard deviation of a relative velocity in LVLH, per axis";
+    reference_orbit_semi_major_axis: Real(f64) = OWN, "reference_orbit.semi_major_axis", "m", Positive, "of the circular orbit that the Clohessy-Wiltshire equations are written about";
+    off_nominal: Real(f64) = 1.0, "off_nominal", "1", Positive, "factor on the process noise of the filter (that it starts from, if it adapts) or on its constant gain, for studies of mistuning";
+    gravity_mu: Real(f64) = OWN, "gravity.mu", "m3/s2", Positive, "gravitational parameter of the central body";
+    gravity_radius: Real(f64) = OWN, "gravity.radius", "m", Positive, "reference radius of the zonal harmonics";
+    gravity_j2: Real(f64) = OWN, "gravity.j2", "1", AtLeast(-0.5), "second zonal harmonic";
+    gravity_j3: Real(f64) = OWN, "gravity.j3", "1", AtLeast(-0.5), "third zonal harmonic";
+    gravity_j4: Real(f64) = OWN, "gravity.j4", "1", AtLeast(-0.5), "fourth zonal harmonic";
+    gravity_mass_ratio: Real(f64) = OWN, "gravity.mass_ratio", "1", Positive, "mass ratio of the three-body problem";
+    divergence_nis: Real(f64) = 100.0, "divergence.nis", "1", Positive, "the filter calls itself diverged when the running mean of NIS over its rows exceeds this";
+    divergence_samples: Integer(i32) = 60, "divergence.samples", "", AtLeast(1.0), "time constant of that running mean, samples";
 }
 
 impl Beliefs {
@@ -61,51 +100,27 @@ impl Beliefs {
     pub const OWN: f64 = -1.0;
 }
 
-impl Default for Beliefs {
-    /// Everything is the mission's own.
-    fn default() -> Self {
-        Self {
-            p0_sigma_position: Self::OWN,
-            p0_sigma_velocity: Self::OWN,
-            p0_sigma_acceleration: Self::OWN,
-            p0_sigma_bias: Self::OWN,
-            chaser_q_c: Self::OWN,
-            chaser_q_coupled: true,
-            accelerometer_gate: Self::OWN,
-            accelerometer_beta: Self::OWN,
-            accelerometer_bias_sigma: Self::OWN,
-            r_sigma_range: Self::OWN,
-            r_sigma_angle: Self::OWN,
-            r_sigma_accelerometer: Self::OWN,
-            r_sigma_position: Self::OWN,
-            r_sigma_velocity: Self::OWN,
-            reference_orbit_semi_major_axis: Self::OWN,
-            off_nominal: 1.0,
-            gravity_mu: Self::OWN,
-            gravity_radius: Self::OWN,
-            gravity_j: [Self::OWN; 3],
-            gravity_mass_ratio: Self::OWN,
-            divergence_nis: 100.0,
-            divergence_samples: 60,
-        }
-    }
-}
-
 /// Whether a value stands for the mission's own.
 pub(crate) fn is_own(value: f64) -> bool {
     value.to_bits() == Beliefs::OWN.to_bits()
 }
 
-/// Puts a value that is not the mission's own into its place, and holds what then stands there against its bound.
-fn put(name: &str, bound: Bound, unit: &'static str, value: f64, place: &mut f64) -> Result<(), FilterError> {
-    if !is_own(value) {
-        *place = value;
-    }
-    bound.check(name, *place, unit)?;
-    Ok(())
-}
-
 impl Beliefs {
+    /// Puts a real belief that is not the mission's own into its place, and holds what then stands there against its bound.
+    fn put(&self, name: &str, place: &mut f64) -> Result<(), FilterError> {
+        let Some(belief) = BELIEFS.iter().find(|belief| belief.name == name) else {
+            return Ok(());
+        };
+        if let Place::Real(at) = belief.place {
+            let value = *at(&mut self.clone());
+            if !is_own(value) {
+                *place = value;
+            }
+        }
+        belief.bound.check(name, *place, belief.unit)?;
+        Ok(())
+    }
+
     /// What a filter is told of a mission, with every value that is set here in place of the mission's own. What a mission
     /// has not, such as the noise of a sensor that is not on board, is passed by.
     ///
@@ -113,100 +128,59 @@ impl Beliefs {
     /// When a value is out of range.
     pub(crate) fn over(&self, navigation: &Navigation) -> Result<Navigation, FilterError> {
         let mut told = navigation.clone();
-        let p0 = &mut told.p0;
-        put(
-            "p0.sigma_position",
-            Positive,
-            "m",
-            self.p0_sigma_position,
-            &mut p0.position,
-        )?;
-        put(
-            "p0.sigma_velocity",
-            Positive,
-            "m/s",
-            self.p0_sigma_velocity,
-            &mut p0.velocity,
-        )?;
-        let (name, value) = ("p0.sigma_acceleration", self.p0_sigma_acceleration);
-        put(name, Positive, "m/s2", value, &mut p0.acceleration)?;
+        self.put("p0.sigma_position", &mut told.p0.position)?;
+        self.put("p0.sigma_velocity", &mut told.p0.velocity)?;
+        self.put("p0.sigma_acceleration", &mut told.p0.acceleration)?;
         if told.frame == Frame::Inertial {
-            put("p0.sigma_bias", Positive, "m/s2", self.p0_sigma_bias, &mut p0.bias)?;
+            self.put("p0.sigma_bias", &mut told.p0.bias)?;
         }
-        put(
-            "chaser.q_c",
-            NonNegative,
-            "m2/s3",
-            self.chaser_q_c,
-            &mut told.chaser_q_c_m2_s3,
-        )?;
+        self.put("chaser.q_c", &mut told.chaser_q_c_m2_s3)?;
         if let Some(s) = &mut told.accelerometer {
-            put(
-                "accelerometer.gate",
-                NonNegative,
-                "m/s2",
-                self.accelerometer_gate,
-                &mut s.gate_m_s2,
-            )?;
+            self.put("accelerometer.gate", &mut s.gate_m_s2)?;
             let mut beta = 1.0 / s.bias_time_constant_s;
-            put(
-                "accelerometer.beta",
-                NonNegative,
-                "1/s",
-                self.accelerometer_beta,
-                &mut beta,
-            )?;
+            self.put("accelerometer.beta", &mut beta)?;
             if !is_own(self.accelerometer_beta) {
                 s.bias_time_constant_s = 1.0 / beta;
             }
-            let (name, value) = ("accelerometer.bias_sigma", self.accelerometer_bias_sigma);
-            put(name, NonNegative, "m/s2", value, &mut s.bias_sigma_m_s2)?;
-            put(
-                "r.sigma_accelerometer",
-                Positive,
-                "m/s2",
-                self.r_sigma_accelerometer,
-                &mut s.sigma_m_s2,
-            )?;
+            self.put("accelerometer.bias_sigma", &mut s.bias_sigma_m_s2)?;
+            self.put("r.sigma_accelerometer", &mut s.sigma_m_s2)?;
         }
-        for (name, sensor, place, value) in [
-            ("r.sigma_range", Sensor::Lidar, 0, self.r_sigma_range),
-            ("r.sigma_angle", Sensor::Lidar, 1, self.r_sigma_angle),
-            ("r.sigma_position", Sensor::Metrology, 0, self.r_sigma_position),
-            ("r.sigma_velocity", Sensor::Metrology, 1, self.r_sigma_velocity),
+        for (name, sensor, place) in [
+            ("r.sigma_range", Sensor::Lidar, 0),
+            ("r.sigma_angle", Sensor::Lidar, 1),
+            ("r.sigma_position", Sensor::Metrology, 0),
+            ("r.sigma_velocity", Sensor::Metrology, 1),
         ] {
             if let Some(sigma) = told.sigma_mut(sensor, place) {
-                put(name, Positive, sensor.sigmas()[place].quantity.unit(), value, sigma)?;
+                self.put(name, sigma)?;
             }
         }
-        let (name, value) = ("reference_orbit.semi_major_axis", self.reference_orbit_semi_major_axis);
-        if let Some(a) = &mut told.reference_orbit_a_m {
-            put(name, Positive, "m", value, a)?;
-        } else if !is_own(value) {
-            told.reference_orbit_a_m = Some(Positive.check(name, value, "m")?);
+        if told.reference_orbit_a_m.is_some() || !is_own(self.reference_orbit_semi_major_axis) {
+            let a = told.reference_orbit_a_m.get_or_insert_default();
+            self.put("reference_orbit.semi_major_axis", a)?;
         }
         self.gravity_over(&mut told.gravity)?;
         Ok(told)
     }
 
     fn gravity_over(&self, gravity: &mut Gravity) -> Result<(), FilterError> {
-        let point = |mu: &mut f64, radius: &mut f64| {
-            put("gravity.mu", Positive, "m3/s2", self.gravity_mu, mu)?;
-            put("gravity.radius", Positive, "m", self.gravity_radius, radius)
-        };
         match gravity {
-            Gravity::TwoBody(body) => point(&mut body.mu_m3_s2, &mut body.radius_m),
+            Gravity::TwoBody(body) => {
+                self.put("gravity.mu", &mut body.mu_m3_s2)?;
+                self.put("gravity.radius", &mut body.radius_m)
+            }
             Gravity::Zonal(body) => {
-                point(&mut body.mu_m3_s2, &mut body.radius_m)?;
-                body.j.resize(body.j.len().max(self.gravity_j.len()), 0.0);
-                for (n, (value, place)) in (2..).zip(self.gravity_j.iter().zip(&mut body.j)) {
-                    put(&format!("gravity.j{n}"), Any, "", *value, place)?;
+                self.put("gravity.mu", &mut body.mu_m3_s2)?;
+                self.put("gravity.radius", &mut body.radius_m)?;
+                body.j.resize(body.j.len().max(3), 0.0);
+                for (name, place) in ["gravity.j2", "gravity.j3", "gravity.j4"].into_iter().zip(&mut body.j) {
+                    self.put(name, place)?;
                 }
                 Ok(())
             }
             Gravity::Cr3bp(problem) => {
-                let (name, value) = ("gravity.mass_ratio", self.gravity_mass_ratio);
-                put(name, Positive, "", value, &mut problem.mass_ratio)?;
+                let name = "gravity.mass_ratio";
+                self.put(name, &mut problem.mass_ratio)?;
                 if problem.mass_ratio < 1.0 {
                     return Ok(());
                 }
@@ -218,6 +192,60 @@ impl Beliefs {
                 })
             }
             Gravity::Harmonics(_) => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use Place::{Boolean, Integer, Real};
+
+    #[test]
+    fn what_is_left_to_the_mission_is_out_of_bounds_and_every_other_start_within() {
+        for belief in BELIEFS {
+            if let Real(at) = belief.place {
+                let start = *at(&mut Beliefs::default());
+                assert_eq!(belief.bound.allows(start), !belief.own(), "{}: {start}", belief.name);
+            }
+        }
+    }
+
+    /// Whatever is left to the mission is put over it somewhere, under its own name.
+    #[test]
+    fn every_belief_of_the_mission_is_heard() {
+        let missions: Vec<Navigation> = (interface::mission::EMBEDDED.iter())
+            .map(|entry| entry.mission().unwrap().navigation())
+            .collect();
+        for belief in BELIEFS.iter().filter(|belief| belief.own()) {
+            let mut all = Beliefs::default();
+            let Real(at) = belief.place else { continue };
+            *at(&mut all) = f64::NAN;
+            let refused = |told: &Navigation| {
+                all.over(told)
+                    .is_err_and(|error| error.to_string().contains(belief.name))
+            };
+            assert!(missions.iter().any(refused), "{}", belief.name);
+        }
+    }
+
+    #[test]
+    fn every_row_has_a_place_of_its_own() {
+        let mut all = Beliefs::default();
+        for (number, belief) in (1..).zip(BELIEFS) {
+            match belief.place {
+                Real(at) => *at(&mut all) = f64::from(number),
+                Integer(at) => *at(&mut all) = number,
+                Boolean(at) => *at(&mut all) = false,
+            }
+        }
+        for (number, belief) in (1..).zip(BELIEFS) {
+            let same = match belief.place {
+                Real(at) => at(&mut all).to_bits() == f64::from(number).to_bits(),
+                Integer(at) => *at(&mut all) == number,
+                Boolean(at) => !*at(&mut all),
+            };
+            assert!(same, "{}", belief.name);
         }
     }
 }

@@ -10,7 +10,7 @@
 //!
 //! Nothing here knows of the simulated truth, and nothing here knows of FMI.
 
-mod beliefs;
+pub mod beliefs;
 mod disturbance;
 pub mod dynamics;
 mod error;

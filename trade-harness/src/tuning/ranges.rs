@@ -52,7 +52,7 @@ pub struct Axis {
     pub low: f64,
     /// Largest value.
     pub high: f64,
-    /// The value it starts from; `None` where that is not positive, as the -1 of "the scenario's own".
+    /// The value it starts from; `None` where that is not positive, as the -1 of "the mission's own".
     pub start: Option<f64>,
 }
 

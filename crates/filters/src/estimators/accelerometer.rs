@@ -27,12 +27,22 @@ struct Mean {
     last_s: Option<f64>,
     /// Shortest time between two.
     shortest: Option<f64>,
-    /// Its acceleration, axes N; zero below the gate.
+    /// Whether it drove the propagation.
+    drives: bool,
+    /// Its acceleration, axes N; zero where it did not.
     drive_n: Vector3<f64>,
     /// By how much it differs from the one before.
     change_n: Vector3<f64>,
     /// Velocity that the filter has credited since then without a reading, axes N.
     credited_n: Vector3<f64>,
+}
+
+/// The bias as it is estimated; internal units, body axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bias {
+    pub mean: Vector3<f64>,
+    /// The largest variance of an axis.
+    pub variance: f64,
 }
 
 /// What drives an interval, and what stays unknown of it at its end.
@@ -72,15 +82,27 @@ impl Accelerometer {
         self.sigma * self.sigma
     }
 
-    fn reading(&self, force: &SpecificForce) -> (Vector3<f64>, bool) {
-        let alpha = force.alpha_c_bc() / self.units.acceleration();
-        (alpha, alpha.norm() >= self.gate)
+    fn reading(&self, force: &SpecificForce) -> Vector3<f64> {
+        force.alpha_c_bc() / self.units.acceleration()
     }
 
     /// The reading of a sample that observes the bias rather than drive the propagation.
     pub(super) fn of_bias(&self, sample: &Sample) -> Option<Vector3<f64>> {
-        let (alpha, drives) = self.reading(sample.accelerometer.as_ref()?);
+        let force = sample.accelerometer.as_ref()?;
+        let alpha = self.reading(force);
+        let drives = match force {
+            SpecificForce::Instant(_) => alpha.norm() >= self.gate,
+            SpecificForce::Mean(_) => self.mean.drives,
+        };
         (!drives).then_some(alpha)
+    }
+
+    /// Whether a mean is that of a thrust: above the gate as any reading, and below it too where it is further from the bias than
+    /// noise and what is not known of the bias can account for. A burn that fills a hundredth of the interval has a mean as small
+    /// as the gate, and its velocity would be lost and the bias be taken for it.
+    fn is_thrust(&self, alpha: &Vector3<f64>, bias: &Bias) -> bool {
+        let beyond_chance = 6.0 * (self.variance() + bias.variance).sqrt();
+        alpha.norm() >= self.gate || (alpha - bias.mean).norm() >= beyond_chance
     }
 
     /// What drives the gap up to a sample.
@@ -99,16 +121,16 @@ impl Accelerometer {
     /// uncertain, and what it credited too little or too much is made good in the gap at whose end the reading comes.
     ///
     /// Where samples were lost, T is longer than the period P that the reading is the mean of, which is taken to be the
-    /// shortest T so far; nothing is known of the other T - P. The reading stands for all of T, and the velocity's covariance gains (T - P) |a - a'| / sqrt 3, with |a|
-    /// where that is larger.
-    ///
-    /// * `bias`: the estimated one.
-    pub(super) fn over(&mut self, gap: &Gap, sample: &Sample, bias: &Vector3<f64>) -> Driven {
+    /// shortest T so far; nothing is known of the other T - P. The reading stands for all of T, and the velocity's covariance
+    /// gains (T - P) |a - a'| / sqrt 3, with |a| where that is larger.
+    pub(super) fn over(&mut self, gap: &Gap, sample: &Sample, estimated: &Bias) -> Driven {
         let dt = gap.length_s / self.units.time;
+        let bias = &estimated.mean;
         let Some(force @ SpecificForce::Mean(_)) = &sample.accelerometer else {
             return self.held_over(dt, bias);
         };
-        let (alpha, drives) = self.reading(force);
+        let alpha = self.reading(force);
+        let drives = self.is_thrust(&alpha, estimated);
         let interval = (sample.time - self.mean.last_s.unwrap_or(gap.start_s)) / self.units.time;
         let dcm_n_bc = sample.dcm_bc_n.transpose();
         let drive_n = if drives {
@@ -137,6 +159,7 @@ impl Accelerometer {
         self.mean = Mean {
             last_s: Some(sample.time),
             shortest: Some(period),
+            drives,
             drive_n,
             change_n,
             credited_n: Vector3::zeros(),
@@ -185,8 +208,8 @@ impl Accelerometer {
     /// Takes note of a reading of the instant.
     pub(super) fn take(&mut self, sample: &Sample) {
         if let Some(force @ SpecificForce::Instant(_)) = &sample.accelerometer {
-            let (alpha, drives) = self.reading(force);
-            self.held = drives.then(|| Thrust {
+            let alpha = self.reading(force);
+            self.held = (alpha.norm() >= self.gate).then(|| Thrust {
                 alpha_c_bc: alpha,
                 dcm_n_bc: sample.dcm_bc_n.transpose(),
             });

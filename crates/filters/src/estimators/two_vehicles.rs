@@ -1,6 +1,6 @@
 //! A target seen from a chaser that knows itself roughly: 18 states, axes N (Mamich and Zanetti).
 
-use super::accelerometer::{Accelerometer, Blur};
+use super::accelerometer::{Accelerometer, Bias, Blur};
 use super::estimator::{Estimator, Gap, Reported, defect};
 use super::sights::{self, InLvlh};
 use super::told::{Manoeuvres, Place};
@@ -323,7 +323,10 @@ impl Estimator for InertialState {
     fn propagate(&mut self, gap: &Gap, sample: &Sample, law: &dyn Adaptation) -> Result<TargetMatrix, FilterError> {
         let mut total = TargetMatrix::identity();
         let Some(core) = &mut self.core else { return Ok(total) };
-        let bias = part(&core.x, idx::B_C);
+        let bias = Bias {
+            mean: part(&core.x, idx::B_C),
+            variance: idx::B_C.map(|slot| core.p[(slot, slot)]).fold(0.0, f64::max),
+        };
         let driven = self
             .accelerometer
             .as_mut()

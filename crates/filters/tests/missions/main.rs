@@ -117,6 +117,38 @@ fn means_of_the_accelerometer_are_right_at_every_period() {
     assert!(found.iter().all(|(_, nees)| (0.5..1.5).contains(nees)), "{found:?}");
 }
 
+/// A thrust below the gate, and a burn that fills so little of an interval that its mean lies below it: neither its velocity is
+/// lost nor is the bias taken for it.
+#[test]
+fn means_below_the_gate_count_where_no_noise_can_account_for_them() {
+    let sensors = "[sensors.lidar]\nperiod_s = 10.0\n[sensors.accelerometer]\noutput = \"mean\"\nperiod_s = 10.0\nbias_sigma_m_s2 = 0.0";
+    let told = low_orbit(sensors, "chaser_q_c_m2_s3 = 1e-12");
+    let weak = |flight: &mut Flight, run: u64| {
+        let from = 400.0 + run as f64;
+        let a_n = Vector3::new(5e-5, -5e-5, 0.0);
+        flight.on_chaser.push(Push {
+            from,
+            to: from + 200.0,
+            a_n,
+        });
+    };
+    let short = |flight: &mut Flight, run: u64| {
+        flight.grid = 0.1;
+        let a_n = Vector3::new(0.0, 9e-3, 0.0);
+        let from = 400.0 + 10.0 * run as f64;
+        flight.on_chaser.push(Push {
+            from,
+            to: from + 0.1,
+            a_n,
+        });
+    };
+    let found = [
+        mean_nees(&told, 1e-6, 380.0, weak),
+        mean_nees(&told, 1e-6, 380.0, short),
+    ];
+    assert!(found.iter().all(|nees| (0.5..1.5).contains(nees)), "{found:?}");
+}
+
 /// Where the accelerometer is the slowest sensor, its means are held and made good when they come.
 #[test]
 fn a_slow_accelerometer_loses_no_velocity() {

@@ -178,7 +178,7 @@ pub struct KnownAccelerometer {
     pub bias_sigma_m_s2: f64,
     /// Of the bias, s.
     pub bias_time_constant_s: f64,
-    /// Readings of at least this norm drive the propagation, m/s2.
+    /// Readings of at least this norm drive the propagation, as does a mean that noise cannot account for, m/s2.
     pub gate_m_s2: f64,
 }
 

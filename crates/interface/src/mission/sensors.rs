@@ -277,7 +277,8 @@ macro_rules! sensors_of_the_target {
             /// Time constant of the accelerometer's bias, s.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             pub accelerometer_bias_time_constant_s: Option<f64>,
-            /// Readings of at least this norm drive the propagation, smaller ones observe the bias, m/s2.
+            /// Readings of at least this norm drive the propagation, as does a mean that noise cannot account for; others observe the bias,
+            /// m/s2.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             pub accelerometer_gate_m_s2: Option<f64>,
         }
