@@ -39,6 +39,8 @@ pub(crate) struct InertialState {
     accelerometer: Option<Accelerometer>,
     told: Manoeuvres,
     initial_p: InitialSigma,
+    /// Most passes of an update beyond the first.
+    passes: u32,
     /// Mean and covariance; `None` until the first sample.
     core: Option<Gaussian>,
 }
@@ -85,6 +87,19 @@ fn part(x: &State, slot: std::ops::Range<usize>) -> Vector3<f64> {
     x.fixed_rows::<3>(slot.start).into_owned()
 }
 
+/// [`update`] with as many rows as a stack has.
+fn update_all(core: &mut Gaussian, stack: &Stack, step: &mut Step) -> Result<f64, NotSpd> {
+    macro_rules! by_rows {
+        ($($rows:literal)*) => {
+            match stack.rows {
+                $($rows => update::<$rows>(core, stack, step),)*
+                _ => Ok(0.0),
+            }
+        };
+    }
+    by_rows!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24)
+}
+
 impl InertialState {
     /// # Errors
     /// When the mission tells of something that cannot be used.
@@ -128,6 +143,7 @@ impl InertialState {
                 acceleration: told.p0.acceleration / units.acceleration(),
                 bias: told.p0.bias / units.acceleration(),
             },
+            passes: told.update_passes,
             core: None,
         })
     }
@@ -190,6 +206,46 @@ impl InertialState {
             t_s: sample.time,
             range_m: r_tc.norm() * self.units.length,
         })
+    }
+
+    /// What all sensors say at the estimate `x`: those of the target, and the accelerometer where it observes the bias.
+    fn measured(&self, x: &State, sample: &Sample) -> Result<Stack, FilterError> {
+        let mut stack = self.seen(x, sample)?;
+        if let Some(accelerometer) = &self.accelerometer
+            && let Some(alpha) = accelerometer.of_bias(sample)
+        {
+            // An identity under b_c (Eq. 11 prints extra zeros).
+            for (axis, slot) in idx::B_C.enumerate() {
+                let row = stack.push(alpha[axis] - x[slot], accelerometer.variance());
+                stack.h[(row, slot)] = 1.0;
+            }
+        }
+        Ok(stack)
+    }
+
+    /// Goes on from an update that moved the target too far for the slopes at the prior to hold: Gauss-Newton passes about the
+    /// estimate that the last one found, each from the prior (the iterated Kalman filter).
+    ///
+    /// Slopes go with the inverse of the range: a move by less than a twentieth of it leaves them right to 5 %, and no pass follows.
+    ///
+    /// * `core`: the estimate after the first pass.
+    fn relinearise(&self, core: &mut Gaussian, prior: &State, sample: &Sample, step: &Step) -> Result<(), FilterError> {
+        let mut from = *prior;
+        for _ in 0..self.passes {
+            let (before, after) = (part(&from, idx::R_TC), part(&core.x, idx::R_TC));
+            let near = before.norm().min(after.norm());
+            let Some(start) = self.core.as_ref().filter(|_| (after - before).norm() > near / 20.0) else {
+                break;
+            };
+            from = core.x;
+            let mut stack = self.measured(&from, sample)?;
+            // From where the prior is: z - h(x) - H (x_prior - x).
+            stack.innovation += stack.h * (from - prior);
+            let (mut again, mut unused) = (start.clone(), step.clone());
+            update_all(&mut again, &stack, &mut unused).map_err(|e| e.at(sample.time))?;
+            *core = again;
+        }
+        Ok(())
     }
 
     /// The relative state in the LVLH axes of the estimated target.
@@ -277,18 +333,8 @@ fn update<const M: usize>(core: &mut Gaussian, stack: &Stack, step: &mut Step) -
 }
 
 /// Every number of rows has its update: those of the sensors, and three of the accelerometer's bias. Whoever adds a sensor beyond
-/// this makes the list in `update` longer.
+/// this makes the list in `update_all` longer.
 const _: () = assert!(MOST <= 24);
-
-/// Calls [`update`] with as many rows as a stack has.
-macro_rules! update_rows {
-    ($core:expr, $stack:expr, $step:expr; $($rows:literal)*) => {
-        match $stack.rows {
-            $($rows => update::<$rows>($core, &$stack, $step),)*
-            _ => Ok(0.0),
-        }
-    };
-}
 
 impl Estimator for InertialState {
     fn check(&self, sample: &Sample) -> Result<(), FilterError> {
@@ -364,21 +410,18 @@ impl Estimator for InertialState {
         let Some(prior) = self.core.as_ref().map(|core| core.x) else {
             return Ok(None);
         };
-        let mut stack = self.seen(&prior, sample)?;
         if let Some(accelerometer) = &mut self.accelerometer {
             accelerometer.take(sample);
-            if let Some(alpha) = accelerometer.of_bias(sample) {
-                // An identity under b_c (Eq. 11 prints extra zeros).
-                for (axis, slot) in idx::B_C.enumerate() {
-                    let row = stack.push(alpha[axis] - prior[slot], accelerometer.variance());
-                    stack.h[(row, slot)] = 1.0;
-                }
-            }
         }
-        let Some(core) = &mut self.core else { return Ok(None) };
+        let stack = self.measured(&prior, sample)?;
+        let Some(mut core) = self.core.clone() else {
+            return Ok(None);
+        };
         step.p_prior.copy_from(&core.p.fixed_view::<9, 9>(0, 0));
-        let nis = update_rows!(core, stack, step; 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24)
-            .map_err(|e| e.at(sample.time))?;
+        let nis = update_all(&mut core, &stack, step).map_err(|e| e.at(sample.time))?;
+        if stack.target_rows > 0 {
+            self.relinearise(&mut core, &prior, sample, step)?;
+        }
         for (row, place) in stack.places[..stack.target_rows].iter().enumerate() {
             step.measured.mark(*place..place + 1);
             step.innovation[*place] = stack.innovation[row];
@@ -388,6 +431,7 @@ impl Estimator for InertialState {
         }
         step.correction = (core.x - prior).fixed_rows::<9>(0).into_owned();
         step.p_post.copy_from(&core.p.fixed_view::<9, 9>(0, 0));
+        self.core = Some(core);
         if stack.target_rows == 0 {
             return Ok(None);
         }

@@ -165,6 +165,31 @@ fn a_slow_accelerometer_loses_no_velocity() {
     assert!(found.iter().all(|nees| (0.3..2.0).contains(nees)), "{found:?}");
 }
 
+/// Where the first estimate is as uncertain as the target is near, the slopes of one pass lead astray; those of several do not.
+#[test]
+fn an_update_goes_on_until_its_slopes_hold() {
+    let found = |passes: u32| {
+        let mut told = low_orbit("[sensors.lidar]", "chaser_q_c_m2_s3 = 1e-12");
+        told.update_passes = passes;
+        (told.p0.position, told.p0.velocity) = (0.4, 1e-3);
+        let (target, relative) = (
+            Vector6::new(6.871e6, 0.0, 0.0, 0.0, 7357.0, 1971.0),
+            Vector6::new(1.5, -1.0, 0.8, 1e-3, 5e-3, -2e-3),
+        );
+        let runs = 200;
+        let mut sum = 0.0;
+        for run in 0..runs {
+            let (mut flight, start) = Flight::new(&told, Box::new(|_, r, _| zonal(r)), &target, &relative, run);
+            let mut nav = navigator(&told, "snc", "q", 1e-6);
+            nav.process(&flight.next(), &start).unwrap();
+            sum += nees(&nav, &flight) / runs as f64;
+        }
+        sum
+    };
+    let (one, many) = (found(0), found(8));
+    assert!(one > 3.0 && (0.8..1.3).contains(&many), "{one} {many}");
+}
+
 /// What is told of the target's burn is not lost, wherever its edges fall, and in whatever axes it is told.
 #[test]
 fn told_burns_are_in_the_dynamics() {

@@ -20,6 +20,9 @@ pub(super) struct Finding {
 const MOST_VENTS: u32 = 100_000;
 const MOST_INTERVALS: f64 = 1e8;
 
+/// Most passes of an update; it is done or does not converge long before.
+const MOST_PASSES: u32 = 100;
+
 /// Years of which the places of Sun and Moon are given.
 const YEARS: std::ops::RangeInclusive<u16> = 1900..=2100;
 /// Times this close are one, s.
@@ -667,6 +670,12 @@ impl Check {
         }
         self.hold("navigation.chaser_q_c_m2_s3", n.chaser_q_c_m2_s3, Bound::NonNegative);
         self.hold_some("navigation.reference_orbit_a_m", n.reference_orbit_a_m, Bound::Positive);
+        if n.update_passes.is_some_and(|passes| passes > MOST_PASSES) {
+            self.say(
+                "navigation.update_passes",
+                format!("navigation.update_passes: it must be at most {MOST_PASSES}"),
+            );
+        }
         if n.frame == Frame::Lvlh {
             if mission.sensors.metrology.is_none() {
                 self.say(

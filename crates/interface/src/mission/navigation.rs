@@ -24,6 +24,10 @@ pub struct NavigationSection {
     /// White acceleration density of the chaser, m2/s3.
     #[serde(default)]
     pub chaser_q_c_m2_s3: f64,
+    /// Most Gauss-Newton passes of an update beyond the first, made where a correction is large beside the range; absent: 0 with
+    /// an instantaneous accelerometer, as in the papers, else 8.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub update_passes: Option<u32>,
     /// Semi-major axis of the circular orbit that Clohessy-Wiltshire is written about, m; absent: the target's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference_orbit_a_m: Option<f64>,
@@ -203,6 +207,8 @@ pub struct Navigation {
     pub units: Units,
     /// White acceleration density of the chaser, m2/s3.
     pub chaser_q_c_m2_s3: f64,
+    /// Most Gauss-Newton passes of an update beyond the first.
+    pub update_passes: u32,
     /// Semi-major axis of the reference orbit, m; `None` where the mission gives no elements and states none.
     pub reference_orbit_a_m: Option<f64>,
     /// Initial standard deviations.
@@ -305,6 +311,14 @@ pub(super) fn resolve(mission: &Mission) -> Navigation {
         frame: section.frame,
         units,
         chaser_q_c_m2_s3: section.chaser_q_c_m2_s3,
+        update_passes: section.update_passes.unwrap_or_else(|| {
+            let output = mission.sensors.accelerometer.map(|a| a.output);
+            if output == Some(AccelerometerOutput::Instantaneous) {
+                0
+            } else {
+                8
+            }
+        }),
         reference_orbit_a_m: section
             .reference_orbit_a_m
             .or_else(|| a_of(&mission.target))
