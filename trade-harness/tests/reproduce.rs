@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use mocks::{Quirk, spec, world};
 use study::{Assignment, Plan, Spec, Study, StudyError, StudyResult, Summary, World, run_once};
 use trade_harness::HarnessError;
-use trade_harness::reproduce::{CHAPTERS, Flight, Laboratory, Line, Notebook, Request, Verdict, fill};
+use trade_harness::reproduce::{CHAPTERS, FirstRun, Laboratory, Line, Notebook, Request, Verdict, fill};
 
 const RUNS: u32 = 6;
 
@@ -63,14 +63,14 @@ impl Laboratory for Mocks {
         Ok((request.plan.clone(), study, result))
     }
 
-    fn fly(&mut self, request: &Request) -> Result<Flight, HarnessError> {
+    fn first_run(&mut self, request: &Request) -> Result<FirstRun, HarnessError> {
         let mut samples = Vec::new();
         let report = run_once(&self.spec(request), 0, |_, truth, _| {
             samples.push(*truth);
             Ok(())
         });
         let failed = report.endings.iter().filter(|e| e.failure.is_some()).count();
-        Ok(Flight { samples, failed })
+        Ok(FirstRun { samples, failed })
     }
 }
 
@@ -178,7 +178,7 @@ fn settings_of_the_papers_reach_the_studies() {
     let sets = |case: &str| -> Vec<String> { find(case).plan.assignments.iter().map(Assignment::to_string).collect() };
     assert_eq!(sets("disturbance"), ["fmu-truth.formation.forces=j2"]);
     assert_eq!(sets("neurons_15")[1], "fmu-nav.rbfnn_aekf.neurons=15");
-    assert!(sets("nominal").is_empty() && sets("flight").is_empty());
+    assert!(sets("nominal").is_empty() && sets("drift").is_empty());
     assert_eq!(
         find("off_nominal").plan.variations[0].to_string(),
         "fmu-nav.off_nominal=uniform:0.1:10"
@@ -193,7 +193,7 @@ fn a_failing_run_is_a_missed_bound() {
     let line = of(&notebook, "all studies")[0];
     // Once nominal, once off-nominal.
     assert_eq!((line.value, line.is_missed()), (Some(2.0), true));
-    // The plain filter: in run 0 beside Table 3 and of the light spacecraft, and in the flight for the drift.
+    // The plain filter: in run 0 beside Table 3 and of the light spacecraft, and in the run for the drift.
     let failing = Quirk::Fails { run: 0, time: 7.0 };
     let notebook = fill(&mut Mocks::new("snc", failing), |_| Ok(())).unwrap();
     assert_eq!(of(&notebook, "all studies")[0].value, Some(3.0));

@@ -77,7 +77,7 @@ impl Models {
         })
     }
 
-    /// The truth of a world by itself, for a flight that nobody navigates.
+    /// The truth of a world by itself, for a run that nobody navigates.
     ///
     /// # Errors
     /// What cannot be set or does not exist, with the names that do.

@@ -23,7 +23,7 @@ pub enum StudyError {
     /// Two bodies that make no sense.
     #[error(transparent)]
     Astro(#[from] astro::AstroError),
-    /// A flight that left the numbers.
+    /// A run that left the numbers.
     #[error("the relative position is no number at {time} s")]
     Lost {
         /// When, s.

@@ -12,7 +12,7 @@ use crate::format::number;
 use crate::output::OutputFolder;
 use crate::report::manifest::Manifest;
 use crate::report::{summary, timing};
-use crate::reproduce::{CHAPTERS, Flight, Laboratory, Notebook, Request, csv, fill, line_text, markdown};
+use crate::reproduce::{CHAPTERS, FirstRun, Laboratory, Notebook, Request, csv, fill, line_text, markdown};
 
 /// Runs that the bounds are meant for.
 const MEANT_RUNS: u32 = 100;
@@ -133,7 +133,7 @@ impl Laboratory for Bench<'_> {
         Ok((self.plan(request), study, result))
     }
 
-    fn fly(&mut self, request: &Request) -> Result<Flight, HarnessError> {
+    fn first_run(&mut self, request: &Request) -> Result<FirstRun, HarnessError> {
         let spec = self.set_up(request)?.spec;
         let mut samples = Vec::with_capacity(spec.epochs());
         let report = run_once(&spec, 0, |filter, truth, _| {
@@ -147,6 +147,6 @@ impl Laboratory for Bench<'_> {
             failed += 1;
             note(&format!("failed: {} run 0: {}", request.case(), failure.message));
         }
-        Ok(Flight { samples, failed })
+        Ok(FirstRun { samples, failed })
     }
 }

@@ -53,7 +53,7 @@ const RELAXATIONS: [f64; 2] = [0.96, 0.97];
 
 fn requests() -> Vec<Request> {
     let others = RELAXATIONS.map(forgetting);
-    [learning(), flight()].into_iter().chain(others).collect()
+    [learning(), drift_run()].into_iter().chain(others).collect()
 }
 
 fn forgetting(relaxation: f64) -> Request {
@@ -69,8 +69,8 @@ fn learning() -> Request {
 }
 
 /// Flown for the true relative motion under every force; a filter has to ride along.
-fn flight() -> Request {
-    first_orbit("flight", "snc")
+fn drift_run() -> Request {
+    first_orbit("drift", "snc")
 }
 
 /// The first orbit of the formation.
@@ -82,7 +82,7 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
     let learning = learning();
     let result = notebook.run(laboratory, &learning)?;
     // Nothing about the truth is random here but its sensors, so one run has the d of all.
-    let truth = notebook.fly(laboratory, &learning)?;
+    let truth = notebook.first_run(laboratory, &learning)?;
     let curve: Vec<Point> = result.filters.iter().flat_map(|f| curve(f, &truth)).collect();
     let columns = [
         "t_s",
@@ -129,7 +129,7 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
             .bound(Bound::between(0.0, CONVERGED_SHARE)),
         );
     }
-    drift(&notebook.fly(laboratory, &flight())?)
+    drift(&notebook.first_run(laboratory, &drift_run())?)
         .into_iter()
         .for_each(|line| notebook.push(line));
     Ok(())

@@ -24,7 +24,7 @@ use crate::HarnessError;
 
 pub use chapter::Chapter;
 pub use line::{Line, Verdict};
-pub use notebook::{Flight, Laboratory, Notebook};
+pub use notebook::{FirstRun, Laboratory, Notebook};
 pub use render::{csv, line_text, markdown};
 pub use request::Request;
 

@@ -27,13 +27,13 @@ pub trait Laboratory {
     /// Runs the worlds and filters of run 0 of a study once, for its true states.
     ///
     /// # Errors
-    /// As [`Laboratory::study`]; a flight that fails says so in its result.
-    fn fly(&mut self, request: &Request) -> Result<Flight, HarnessError>;
+    /// As [`Laboratory::study`]; a run that fails says so in its result.
+    fn first_run(&mut self, request: &Request) -> Result<FirstRun, HarnessError>;
 }
 
 /// The truth of one run.
 #[derive(Debug, Clone, Default)]
-pub struct Flight {
+pub struct FirstRun {
     /// True states, sample by sample.
     pub samples: Vec<TruthSample>,
     /// Filters beside it that ended with an error, and so perhaps before the last sample.
@@ -55,8 +55,8 @@ pub struct Notebook {
     pub files: Vec<(String, Vec<u8>)>,
     /// Time on the clock for all runs.
     pub wall: Duration,
-    /// Filters that ended a flight with an error.
-    failed_flights: usize,
+    /// Filters that ended such a run with an error.
+    failed_first_runs: usize,
     /// Title of the chapter that is being written.
     chapter: &'static str,
 }
@@ -88,14 +88,14 @@ impl Notebook {
     }
 
     /// The true states of run 0 of a study; a failure is counted.
-    pub(crate) fn fly(
+    pub(crate) fn first_run(
         &mut self,
         laboratory: &mut dyn Laboratory,
         request: &Request,
     ) -> Result<Vec<TruthSample>, HarnessError> {
-        let flight = laboratory.fly(request)?;
-        self.failed_flights += flight.failed;
-        Ok(flight.samples)
+        let first = laboratory.first_run(request)?;
+        self.failed_first_runs += first.failed;
+        Ok(first.samples)
     }
 
     /// A column of the summary; `None` where there is no such row, or the cell is empty.
@@ -120,7 +120,7 @@ impl Notebook {
 
     /// Statistics over the runs that are left would hide those that are not.
     pub(crate) fn count_failures(&mut self) {
-        let failed = self.failed_flights + self.rows.iter().map(|row| row.failed).sum::<usize>();
+        let failed = self.failed_first_runs + self.rows.iter().map(|row| row.failed).sum::<usize>();
         let line = Line::new(
             "",
             "all studies",

@@ -9,7 +9,7 @@ pub(crate) const NRHO_VENTING: &str = "nrho_venting";
 /// The third.
 pub(crate) const FORMATION: &str = "formation";
 
-/// A study of one world that a chapter needs, or a flight: run 0 of one.
+/// A study of one world that a chapter needs, or run 0 of one alone.
 #[derive(Debug, Clone)]
 pub struct Request {
     /// What is studied; seed, runs and threads are up to the laboratory.

@@ -1,4 +1,4 @@
-//! Flights of the papers' missions against their end, their invariants and what is written there; forces against potentials.
+//! Runs of the papers' missions against their end, their invariants and what is written there; forces against potentials.
 #![allow(clippy::unwrap_used, clippy::float_cmp)]
 
 use astro::harmonics::EGM96;

@@ -13,7 +13,7 @@ use rasciigraph::Config;
 use study::{MISSION, Models, Plan, StudyError, World, rehearse};
 
 use super::super::shared::{Verdict, models, say, scratch};
-use super::flight::{Flight, Point, fly};
+use super::quiet_run::{Point, QuietRun, run_quietly};
 use crate::HarnessError;
 use crate::cli::MissionCheckArgs;
 
@@ -34,25 +34,25 @@ pub(super) fn check(args: &MissionCheckArgs, out: &mut dyn Write) -> Result<Verd
         },
         &world,
     )?)?;
-    let flight = fly(&models, &plan, &world, args.run)?;
-    if let Some(point) = below_the_surface(&world.mission, &flight) {
+    let quiet = run_quietly(&models, &plan, &world, args.run)?;
+    if let Some(point) = below_the_surface(&world.mission, &quiet) {
         return Err(HarnessError::BelowSurface { time: point.t });
     }
-    if flight.seen.values().all(|seen| seen.valid == 0) {
+    if quiet.seen.values().all(|seen| seen.valid == 0) {
         return Err(HarnessError::SeesNothing);
     }
-    say(out, &orbits(&world, &flight)?)?;
-    say(out, &approach(&flight))?;
+    say(out, &orbits(&world, &quiet)?)?;
+    say(out, &approach(&quiet))?;
     say(out, &events(&world.mission))?;
-    say(out, &sensors(&world, &flight))?;
-    say(out, &plot(&flight))?;
+    say(out, &sensors(&world, &quiet))?;
+    say(out, &plot(&quiet))?;
     for note in &world.notes {
         say(out, &format!("note: {note}"))?;
     }
     if args.once {
         return Ok(Verdict::Done);
     }
-    grid(args, &plan, &models, &world, &flight, out)
+    grid(args, &plan, &models, &world, &quiet, out)
 }
 
 fn plan(args: &MissionCheckArgs) -> Result<Plan, HarnessError> {
@@ -127,16 +127,16 @@ fn mu(mission: &Mission) -> Result<Option<f64>, HarnessError> {
 }
 
 /// The first point at which a vehicle is inside the central body.
-fn below_the_surface<'a>(mission: &Mission, flight: &'a Flight) -> Option<&'a Point> {
+fn below_the_surface<'a>(mission: &Mission, quiet: &'a QuietRun) -> Option<&'a Point> {
     let radius = mission.environment.gravity.radius_m()?;
     let inside = |p: &&Point| p.r_c.norm() < radius || (p.r_c + p.r_tc).norm() < radius;
-    flight.points.iter().find(inside)
+    quiet.points.iter().find(inside)
 }
 
 /// The orbit of the target at the begin and at the end.
-fn orbits(world: &World, flight: &Flight) -> Result<String, HarnessError> {
+fn orbits(world: &World, quiet: &QuietRun) -> Result<String, HarnessError> {
     let mut text = "Orbit of the target".to_owned();
-    let ends = [("begin", flight.points.first()), ("end", flight.points.last())];
+    let ends = [("begin", quiet.points.first()), ("end", quiet.points.last())];
     let mu = mu(&world.mission)?;
     for (name, point) in ends {
         let Some(point) = point else { continue };
@@ -185,7 +185,7 @@ fn elements(r: &Vector3<f64>, v: &Vector3<f64>, mu: f64, radius: Option<f64>) ->
     )
 }
 
-fn approach(flight: &Flight) -> String {
+fn approach(quiet: &QuietRun) -> String {
     let of = |name: &str, point: Option<&Point>| match point {
         Some(p) => format!(
             "\n  {name:9} at {:.1} s: {} apart, {:.4} m/s",
@@ -197,9 +197,9 @@ fn approach(flight: &Flight) -> String {
     };
     format!(
         "Distance{}{}{}",
-        of("begin", flight.points.first()),
-        of("closest", flight.closest()),
-        of("end", flight.points.last())
+        of("begin", quiet.points.first()),
+        of("closest", quiet.closest()),
+        of("end", quiet.points.last())
     )
 }
 
@@ -255,9 +255,9 @@ fn events(mission: &Mission) -> String {
     text
 }
 
-fn sensors(world: &World, flight: &Flight) -> String {
+fn sensors(world: &World, quiet: &QuietRun) -> String {
     let mut text = "Sensors".to_owned();
-    for (sensor, seen) in &flight.seen {
+    for (sensor, seen) in &quiet.seen {
         let _ = write!(
             text,
             "\n  {}: {} samples, target seen in {}",
@@ -285,15 +285,15 @@ fn sensors(world: &World, flight: &Flight) -> String {
 }
 
 /// Distance over time.
-fn plot(flight: &Flight) -> String {
+fn plot(quiet: &QuietRun) -> String {
     const WIDTH: usize = 90;
-    let Some(last) = flight.points.last() else {
+    let Some(last) = quiet.points.last() else {
         return String::new();
     };
     let column = |i: usize| {
-        flight
+        quiet
             .points
-            .get(i * (flight.points.len() - 1) / (WIDTH - 1))
+            .get(i * (quiet.points.len() - 1) / (WIDTH - 1))
             .map_or(0.0, |p| p.r_tc.norm())
     };
     let caption = format!("distance [m], 0 to {} s", last.t);
@@ -307,7 +307,7 @@ fn grid(
     plan: &Plan,
     models: &Models,
     world: &World,
-    flight: &Flight,
+    quiet: &QuietRun,
     out: &mut dyn Write,
 ) -> Result<Verdict, HarnessError> {
     let step = world.mission.time.grid_s;
@@ -317,8 +317,8 @@ fn grid(
         ..plan.clone()
     };
     let folder = scratch()?;
-    let again = fly(models, &finer, &only_world(&finer, folder.path())?, args.run)?;
-    let moved = flight.apart_from(&again);
+    let again = run_quietly(models, &finer, &only_world(&finer, folder.path())?, args.run)?;
+    let moved = quiet.apart_from(&again);
     let fine = moved <= FINE_ENOUGH;
     // The error of the scheme falls with the fourth power of its step.
     let advice = if fine {

@@ -1,7 +1,7 @@
 //! `mission`: mission files written, checked and described.
 
 mod check;
-mod flight;
+mod quiet_run;
 
 use std::io::Write;
 

@@ -1,4 +1,4 @@
-//! One flight of a mission through its FMU, without noise, seen from outside.
+//! One run of a mission through its FMU, without noise, seen from outside.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -47,23 +47,23 @@ pub(super) struct Seen {
     pub range: Option<(f64, f64)>,
 }
 
-/// A flight.
+/// A run without noise.
 #[derive(Debug, Default)]
-pub(super) struct Flight {
+pub(super) struct QuietRun {
     /// At the communication points, which are the epochs at which samples can lie.
     pub points: Vec<Point>,
     /// By sensor; those that are not on board are missing.
     pub seen: BTreeMap<Sensor, Seen>,
 }
 
-/// Flies a world.
+/// Runs a world.
 ///
 /// * `plan`: seeds and what else is said of all studies.
-/// * `run`: whose events are flown.
+/// * `run`: whose events happen.
 ///
 /// # Errors
 /// Whatever the FMU refuses.
-pub(super) fn fly(models: &Models, plan: &Plan, world: &World, run: u32) -> Result<Flight, HarnessError> {
+pub(super) fn run_quietly(models: &Models, plan: &Plan, world: &World, run: u32) -> Result<QuietRun, HarnessError> {
     let quiet = quiet().filter_map(|name| format!("fmu-truth.{name}=0").parse().ok());
     let assignments: Vec<Assignment> = plan.in_fmus().cloned().chain(quiet).collect();
     let participant = models.truth_alone(world, &assignments)?;
@@ -91,7 +91,7 @@ pub(super) fn fly(models: &Models, plan: &Plan, world: &World, run: u32) -> Resu
         step: world.sample_period_s,
         ..RunOptions::default()
     };
-    let mut flight = Flight::default();
+    let mut quiet = QuietRun::default();
     let mut last = 0;
     let report = system
         .run(&options, |context: &mut StepContext<'_>| {
@@ -100,7 +100,7 @@ pub(super) fn fly(models: &Models, plan: &Plan, world: &World, run: u32) -> Resu
                 return ControlFlow::Break(());
             }
             let [r_tc, v_tc, r_c, v_c] = state.map(|handle| Vector3::from(sample.get(handle)));
-            flight.points.push(Point {
+            quiet.points.push(Point {
                 t,
                 r_tc,
                 v_tc,
@@ -111,7 +111,7 @@ pub(super) fn fly(models: &Models, plan: &Plan, world: &World, run: u32) -> Resu
                 last = sample.get(count);
                 for (sensor, due, valid) in &flags {
                     if sample.get(*due) {
-                        flight
+                        quiet
                             .seen
                             .entry(*sensor)
                             .or_default()
@@ -125,10 +125,10 @@ pub(super) fn fly(models: &Models, plan: &Plan, world: &World, run: u32) -> Resu
     if let Some(refused) = report.isolated.into_iter().next() {
         return Err(failed(refused.error));
     }
-    if let Some(lost) = flight.points.iter().find(|p| !p.r_tc.norm().is_finite()) {
+    if let Some(lost) = quiet.points.iter().find(|p| !p.r_tc.norm().is_finite()) {
         return Err(StudyError::Lost { time: lost.t }.into());
     }
-    Ok(flight)
+    Ok(quiet)
 }
 
 impl Seen {
@@ -145,7 +145,7 @@ impl Seen {
     }
 }
 
-impl Flight {
+impl QuietRun {
     /// The point at which the vehicles were closest.
     pub(super) fn closest(&self) -> Option<&Point> {
         self.points
