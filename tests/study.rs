@@ -4,42 +4,12 @@
 
 mod common;
 
-use common::{fmu, harness, harness_ok, read_csv, repacked};
+use common::{fmu, harness, harness_ok, read_csv, repacked, results};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 fn text(path: &Path) -> &str {
     path.to_str().unwrap()
-}
-
-/// Every file of a folder with its contents.
-fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    for entry in std::fs::read_dir(folder).unwrap().map(Result::unwrap) {
-        if entry.path().is_dir() {
-            found.extend(files(&entry.path()));
-        } else {
-            found.insert(entry.path(), std::fs::read(entry.path()).unwrap());
-        }
-    }
-    found
-}
-
-/// The results of a study without what may differ on repeat: `timing.csv` and `environment` in the manifest.
-fn results(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut kept = BTreeMap::new();
-    for (path, mut bytes) in files(folder) {
-        let name = text(path.strip_prefix(folder).unwrap()).to_owned();
-        if name == "manifest.json" {
-            let mut manifest: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
-            assert!(manifest.as_object_mut().unwrap().remove("environment").is_some());
-            bytes = serde_json::to_vec(&manifest).unwrap();
-        }
-        if name != "timing.csv" {
-            kept.insert(name, bytes);
-        }
-    }
-    kept
 }
 
 const STUDY: [&str; 5] = ["compare", "--filters", "fixed_q,milton@consistent", "--runs", "3"];

@@ -5,6 +5,7 @@
 
 pub mod fmi;
 
+use std::collections::BTreeMap;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -27,8 +28,8 @@ pub fn fmu(name: &str) -> PathBuf {
     pack::fmu_path(folder, name)
 }
 
-/// Runs the harness's program, built once for each test binary, on FMUs that are packed already.
-pub fn harness(arguments: &[&str]) -> Output {
+/// A call of the harness's program, built once for each test binary, on FMUs that are packed already.
+pub fn command(arguments: &[&str]) -> Command {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
     let program = PROGRAM.get_or_init(|| {
         fmu("fmu-nav");
@@ -53,12 +54,48 @@ pub fn harness(arguments: &[&str]) -> Output {
         let mut programs = artifacts.filter_map(|a| a["executable"].as_str().map(PathBuf::from));
         programs.next_back().unwrap()
     });
-    Command::new(program)
-        .args(arguments)
-        .args(["--no-build", "--quiet"])
-        .current_dir(root())
-        .output()
-        .unwrap()
+    let mut command = Command::new(program);
+    command.args(arguments).arg("--quiet").current_dir(root());
+    // A merge takes the FMUs that its parts were made with.
+    if arguments.first() != Some(&"merge") {
+        command.arg("--no-build");
+    }
+    command
+}
+
+/// Runs it.
+pub fn harness(arguments: &[&str]) -> Output {
+    command(arguments).output().unwrap()
+}
+
+/// The results of a study without what may differ on repeat: `timing.csv` and `environment` in the manifest.
+pub fn results(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut kept = BTreeMap::new();
+    for (path, mut bytes) in files(folder) {
+        let name = path.strip_prefix(folder).unwrap().to_str().unwrap().to_owned();
+        if name == "manifest.json" {
+            let mut manifest: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+            assert!(manifest.as_object_mut().unwrap().remove("environment").is_some());
+            bytes = serde_json::to_vec(&manifest).unwrap();
+        }
+        if name != "timing.csv" {
+            kept.insert(name, bytes);
+        }
+    }
+    kept
+}
+
+/// Every file of a folder with its contents.
+fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for entry in std::fs::read_dir(folder).unwrap().map(Result::unwrap) {
+        if entry.path().is_dir() {
+            found.extend(files(&entry.path()));
+        } else {
+            found.insert(entry.path(), std::fs::read(entry.path()).unwrap());
+        }
+    }
+    found
 }
 
 /// Like [`harness`], for a call that must succeed; returns what it printed.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use study::{Assignment, FilterChoice, ForeignFilter, Mapping, Variation, check_case};
+use study::{Assignment, FilterChoice, ForeignFilter, Mapping, Shard, Variation, check_case};
 
 use crate::pack;
 use crate::tuning::ranges::Range;
@@ -27,6 +27,8 @@ pub enum Command {
     Pack(PackArgs),
     /// Run a Monte Carlo study of several filters in the same worlds
     Compare(CompareArgs),
+    /// Put the parts of a study together that 'compare --shard' has done
+    Merge(MergeArgs),
     /// Search for every filter's best parameters, then compare the filters at their best
     Tune(TuneArgs),
     /// Write one run out, sample by sample
@@ -250,12 +252,43 @@ pub struct CompareArgs {
     /// Text of the 'case' column
     #[arg(long, value_name = "NAME", default_value = "nominal", value_parser = case_name)]
     pub case: String,
+    /// What becomes of a study that is in the folder.
+    #[command(flatten)]
+    pub folder: FolderArgs,
     /// End with exit code 1 when the scenario as published misses one of its bounds
     #[arg(long, conflicts_with_all = ["assignments", "variations", "truth"])]
     pub check: bool,
     /// Which filters, which parameters.
     #[command(flatten)]
     pub study: StudyArgs,
+}
+
+/// What becomes of a study that is in the folder already, and which part of the runs is done.
+#[derive(Debug, Clone, Default, Args)]
+pub struct FolderArgs {
+    /// Go on with the unfinished study in the folder; its finished runs are not made again
+    #[arg(long, conflicts_with = "force")]
+    pub resume: bool,
+    /// Set a study that is in the folder aside (DIR.old-1) and begin anew
+    #[arg(long)]
+    pub force: bool,
+    /// Do part I of N of the runs, for 'merge' to put together
+    #[arg(long, value_name = "I/N", conflicts_with = "check")]
+    pub shard: Option<Shard>,
+}
+
+/// `merge`.
+#[derive(Debug, Args)]
+pub struct MergeArgs {
+    /// Folder in which the parts of a study were done
+    #[arg(value_name = "DIR")]
+    pub dir: PathBuf,
+    /// Threads [default: all cores]
+    #[arg(long)]
+    pub jobs: Option<std::num::NonZeroUsize>,
+    /// No progress, only results and errors
+    #[arg(long, short)]
+    pub quiet: bool,
 }
 
 /// `tune`.

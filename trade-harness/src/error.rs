@@ -143,6 +143,44 @@ pub enum HarnessError {
         /// The path.
         path: PathBuf,
     },
+    /// The system does not let us listen for Ctrl-C.
+    #[error("cannot listen for Ctrl-C: {source}")]
+    Signals {
+        /// Why.
+        source: ctrlc::Error,
+    },
+    /// Another process works in the folder.
+    #[error("{} is in use by another process; wait for it, or give another folder with --out", path.display())]
+    InUse {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The folder holds something else.
+    #[error(
+        "{} holds another study (or one of other FMUs or of another version); give another folder with --out, or --force to set it aside",
+        path.display()
+    )]
+    OtherStudy {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The folder holds the same study, broken off.
+    #[error(
+        "{} holds this study unfinished; give --resume to go on, or --force to set it aside and begin anew",
+        path.display()
+    )]
+    Unfinished {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Parts of a study that do not make a whole.
+    #[error("{}: {problem}", path.display())]
+    Shards {
+        /// The folder.
+        path: PathBuf,
+        /// What is missing or does not fit.
+        problem: String,
+    },
     /// Rows that cannot be put into CSV.
     #[error("cannot form a CSV table: {0}")]
     Csv(#[from] csv::Error),

@@ -20,6 +20,7 @@ pub mod output;
 pub mod pack;
 pub mod report;
 pub mod reproduce;
+pub mod store;
 pub mod tuning;
 
 pub use error::HarnessError;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::HarnessError;
 
 /// A folder that has been seen to take files.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct OutputFolder {
     path: PathBuf,
 }

@@ -224,6 +224,23 @@ pub enum StudyError {
         /// Why.
         source: Box<CosimError>,
     },
+    /// The journal of finished runs cannot be read or written.
+    #[error("{}: {source}; every finished run before it is safe", path.display())]
+    Journal {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// A journal of finished runs of another study.
+    #[error("{} holds the runs of another study", path.display())]
+    OtherJournal {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Somebody has asked the process to stop.
+    #[error("stopped as asked; what is finished is kept")]
+    Stopped,
     /// A plan that no study can follow.
     #[error("plan: {field} {problem}")]
     Plan {

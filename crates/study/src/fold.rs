@@ -1,6 +1,7 @@
 //! Runs, one after the other, folded into what a study says of a filter.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 use stats::{Ensemble, ScalarEnsemble};
 
 use crate::error::StudyError;
@@ -9,7 +10,7 @@ use crate::run::{Ending, Failure, SlaveTime};
 use crate::spec::Spec;
 
 /// What one filter did in one run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunRow {
     /// Number of the run.
     pub run: u32,

@@ -1,6 +1,7 @@
 //! What a study keeps of one estimate.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 /// Vector quantities that statistics are kept of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,7 +37,7 @@ impl Quantity {
 
 /// One row of numbers of one filter in one run. A number that is absent is NaN inside and `None` to the outside: some twenty
 /// thousand rows wait for each filter and thread, and an option would take a word more for each vector.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub struct Record {
     /// Place of the epoch on the study's grid, from 0.
     pub epoch: u32,

@@ -11,10 +11,12 @@ use crate::participant::Participant;
 use crate::readers::{EstimateReader, TruthReader};
 use crate::samples::{Estimate, TruthSample};
 use crate::spec::{SAME_TIME, Spec};
+use crate::stop::stop_asked;
 use interface::Status;
+use serde::{Deserialize, Serialize};
 
 /// Why a filter has no result in a run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Failure {
     /// When, s; `None` before the first step.
     pub time: Option<f64>,
@@ -32,7 +34,7 @@ pub struct Ending {
 }
 
 /// Time one slave took over a run.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct SlaveTime {
     /// Inside `fmi2DoStep`.
     pub step: Duration,
@@ -212,6 +214,9 @@ pub fn run_once(
     let mut history = History::new(spec);
     let endings = &mut report.endings;
     let outcome = system.run(&spec.options(true), |context: &mut StepContext<'_>| {
+        if stop_asked() {
+            return ControlFlow::Break("stopped as asked".to_owned());
+        }
         let handed_late = history.newest;
         let Some(count) = truth_reader.newest(context) else {
             return ControlFlow::Continue(());

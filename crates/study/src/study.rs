@@ -4,11 +4,12 @@ use std::time::{Duration, Instant};
 
 use crate::error::StudyError;
 use crate::fold::{FilterResult, RunRow};
+use crate::journal::Journal;
 use crate::ordered::in_order;
-use crate::record::Record;
-use crate::run::{RunReport, run_once};
-use crate::score::score;
+use crate::outcome::Outcome;
+use crate::shard::Shard;
 use crate::spec::Spec;
+use crate::stop::stop_asked;
 
 /// Runs whose records may wait for an earlier run, beside those that the threads are at: they are what a study needs its
 /// memory for, and runs of one study take about the same time.
@@ -39,52 +40,80 @@ pub struct StudyResult {
 impl Study {
     /// Runs the study. Results are folded in the order of the runs, so they do not depend on the number of threads.
     ///
+    /// * `journal`: takes each run as it ends; those that it holds already are not made again, and have the same results.
     /// * `finished`: called after each run with its number and how it ended for each filter.
     ///
     /// # Errors
-    /// [`StudyError::Stats`] only; what goes wrong in a run is counted in its results.
-    pub fn run(&self, mut finished: impl FnMut(u32, &[RunRow])) -> Result<StudyResult, StudyError> {
+    /// [`StudyError::Stats`], [`StudyError::Journal`], [`StudyError::Stopped`]; what goes wrong in a run is counted in its
+    /// results.
+    pub fn run(
+        &self,
+        journal: Option<&Journal>,
+        mut finished: impl FnMut(u32, &[RunRow]),
+    ) -> Result<StudyResult, StudyError> {
         let begin = Instant::now();
         let labels = self.spec.filters.iter().map(|f| &f.label);
         let mut filters: Vec<_> = labels.map(|label| FilterResult::new(label, &self.spec)).collect();
-        in_order(
-            self.runs,
-            self.jobs,
-            WAITING,
-            |run| self.one_run(run),
-            |run, (parts, report)| {
-                for ((filter, (row, records)), nav) in filters.iter_mut().zip(parts).zip(report.filter_times) {
-                    filter.fold(row, &records)?;
-                    filter.timing.add(report.steps, nav, report.truth_time);
-                }
-                let rows: Vec<RunRow> = filters.iter().filter_map(|f| f.runs.last().cloned()).collect();
-                finished(run, &rows);
-                Ok::<(), StudyError>(())
-            },
-        )?;
+        self.each(&Shard::WHOLE.runs(self.runs), journal, |outcome| {
+            for (filter, part) in filters.iter_mut().zip(outcome.parts) {
+                filter.fold(part.row, &part.records)?;
+                filter.timing.add(outcome.steps, part.time, outcome.truth_time);
+            }
+            let rows: Vec<RunRow> = filters.iter().filter_map(|f| f.runs.last().cloned()).collect();
+            finished(outcome.run, &rows);
+            Ok(())
+        })?;
         Ok(StudyResult {
             filters,
             wall: begin.elapsed(),
         })
     }
 
-    /// Each filter's part of one run, on its way to the statistics.
-    fn one_run(&self, run: u32) -> (Vec<(RunRow, Vec<Record>)>, RunReport) {
-        let epochs = self.spec.epochs();
-        let mut records: Vec<_> = self.spec.filters.iter().map(|_| Vec::with_capacity(epochs)).collect();
-        let report = run_once(&self.spec, run, |filter, truth, estimate| {
-            let record = score(&self.spec.world, truth, estimate)
-                .ok_or_else(|| format!("the axes of the results are undefined at {} s", truth.time))?;
-            records[filter].push(record);
+    /// Makes a part of the runs and leaves them in the journal, for whoever puts the parts together.
+    ///
+    /// * `finished`: as for [`Study::run`].
+    ///
+    /// # Errors
+    /// [`StudyError::Journal`], [`StudyError::Stopped`].
+    pub fn run_shard(
+        &self,
+        shard: Shard,
+        journal: &Journal,
+        mut finished: impl FnMut(u32, &[RunRow]),
+    ) -> Result<(), StudyError> {
+        self.each(&shard.runs(self.runs), Some(journal), |outcome| {
+            let rows: Vec<RunRow> = outcome.parts.into_iter().map(|part| part.row).collect();
+            finished(outcome.run, &rows);
             Ok(())
-        });
-        let first = self.spec.first_scored();
-        let parts = records.into_iter().zip(&report.endings).map(|(records, ending)| {
-            let row = RunRow::new(run, &records, first, ending);
-            // Those of a failed run count for nothing, and need no memory while they wait.
-            let kept = if ending.failure.is_none() { records } else { Vec::new() };
-            (row, kept)
-        });
-        (parts.collect(), report)
+        })
+    }
+
+    /// Hands over these runs in their order, from the journal or newly made.
+    fn each(
+        &self,
+        runs: &[u32],
+        journal: Option<&Journal>,
+        mut take: impl FnMut(Outcome) -> Result<(), StudyError>,
+    ) -> Result<(), StudyError> {
+        let count = u32::try_from(runs.len()).unwrap_or(u32::MAX);
+        let work = |index: u32| self.one(runs[index as usize], journal);
+        in_order(count, self.jobs, WAITING, work, |_, outcome| take(outcome?))
+    }
+
+    fn one(&self, run: u32, journal: Option<&Journal>) -> Result<Outcome, StudyError> {
+        if let Some(kept) = journal.map(|journal| journal.read(run)).transpose()?.flatten() {
+            return Ok(kept);
+        }
+        let outcome = if stop_asked() {
+            None
+        } else {
+            Some(Outcome::of(&self.spec, run))
+        };
+        // A run that was broken off is none.
+        let outcome = outcome.filter(|_| !stop_asked()).ok_or(StudyError::Stopped)?;
+        if let Some(journal) = journal {
+            journal.append(&outcome)?;
+        }
+        Ok(outcome)
     }
 }

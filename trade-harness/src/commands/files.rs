@@ -38,6 +38,7 @@ impl<'a> Report<'a> {
     /// Writes every file and what else the command has; `manifest.json` last, so that it stands for a complete set.
     ///
     /// * `plan`: what the studies are part of.
+    /// * `identity`: for the manifest.
     /// * `written`: studies, from the first, whose `epochs` files are in the folder already.
     /// * returns: names of all files.
     pub(super) fn write(
@@ -47,6 +48,7 @@ impl<'a> Report<'a> {
         plan: &Plan,
         written: usize,
         more: Vec<(String, Vec<u8>)>,
+        identity: Option<&str>,
     ) -> Result<Vec<String>, HarnessError> {
         let named: Vec<Named<'_>> = self
             .studies
@@ -78,7 +80,9 @@ impl<'a> Report<'a> {
         files.extend(folder.write_all(more)?);
         let wall = self.results.iter().map(|r| r.wall).sum();
         let studies = self.studies.iter().map(|s| StudyFacts::new(plan, s)).collect();
-        Manifest::new(models, studies, plan.threads(), wall).write(folder, &mut files)?;
+        let mut manifest = Manifest::new(models, studies, plan.threads(), wall);
+        manifest.identity = identity.map(str::to_owned);
+        manifest.write(folder, &mut files)?;
         Ok(files)
     }
 }

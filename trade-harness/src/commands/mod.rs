@@ -5,6 +5,7 @@ mod compare;
 mod files;
 mod inspect;
 mod list;
+mod merge;
 mod mission;
 mod pack;
 mod progress;
@@ -16,19 +17,21 @@ mod tune;
 use std::io;
 use std::process::ExitCode;
 
-use study::chain;
+use study::{StudyError, chain};
 
 use crate::HarnessError;
 use crate::cli::{Cli, Command};
-use shared::{Verdict, note};
+use shared::{INTERRUPTED, Verdict, note};
 
-/// Runs a command: exit code 0 when done, 1 when bounds were missed, 2 when it could not do its work.
+/// Runs a command: exit code 0 when done, 1 when bounds were missed, 2 when it could not do its work, 130 when it was asked to
+/// stop.
 pub fn execute(cli: Cli) -> ExitCode {
     let mut out = io::stdout().lock();
     let result = match cli.command {
         Command::List(args) => list::list(&args, &mut out),
         Command::Pack(args) => pack::pack(&args, &mut out),
         Command::Compare(args) => compare::compare(&args, &mut out),
+        Command::Merge(args) => merge::merge(&args, &mut out),
         Command::Tune(args) => tune::tune(&args, &mut out),
         Command::Replay(args) => replay::replay(&args, &mut out),
         Command::Reproduce(args) => reproduce::reproduce(&args, &mut out),
@@ -41,6 +44,10 @@ pub fn execute(cli: Cli) -> ExitCode {
         Ok(Verdict::BoundsMissed) => ExitCode::from(1),
         // Whoever reads our output has seen enough, as in `list | head`.
         Err(HarnessError::Write { source, .. }) if source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(HarnessError::Study(error)) if matches!(*error, StudyError::Stopped) => {
+            note("stopped as asked; every finished run is kept: the same command with --resume goes on");
+            ExitCode::from(INTERRUPTED)
+        }
         Err(error) => {
             note(&format!("error: {}", chain(&error)));
             ExitCode::from(2)

@@ -1,10 +1,12 @@
 //! The live line on stderr; hidden where nobody watches.
 
-use std::time::Duration;
+use std::cell::Cell;
+use std::io::{self, IsTerminal};
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use study::{RunRow, Study, StudyResult};
+use study::{Journal, RunRow, Shard, Study, StudyError, StudyResult};
 
 use super::shared::note;
 use crate::HarnessError;
@@ -12,7 +14,12 @@ use crate::HarnessError;
 /// How far a command has come, and how long it still takes.
 pub(super) struct Progress {
     bar: ProgressBar,
+    /// When the next plain line is due; `None` where a live line is seen, or nothing shall be.
+    plain: Option<Cell<Instant>>,
 }
+
+/// Time between the lines that stand for a live one where there is no terminal.
+const PLAIN: Duration = Duration::from_secs(30);
 
 impl Progress {
     /// * `work`: all there is to do, counted in `unit`.
@@ -26,7 +33,11 @@ impl Progress {
         let style = ProgressStyle::with_template(&format!("{{msg}} {{wide_bar}} {{pos}}/{{len}} {unit}, {{eta}} left"));
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         bar.enable_steady_tick(Duration::from_millis(500));
-        Self { bar }
+        let plain = !quiet && !io::stderr().is_terminal();
+        Self {
+            bar,
+            plain: plain.then(|| Cell::new(Instant::now() + PLAIN)),
+        }
     }
 
     /// Says what is going on.
@@ -37,6 +48,13 @@ impl Progress {
     /// So much of the work is done.
     pub(super) fn advance(&self, done: u64) {
         self.bar.inc(done);
+        let Some(due) = self.plain.as_ref().filter(|due| Instant::now() >= due.get()) else {
+            return;
+        };
+        due.set(Instant::now() + PLAIN);
+        let (done, all) = (self.bar.position(), self.bar.length().unwrap_or_default());
+        let left = humantime::format_duration(Duration::from_secs(self.bar.eta().as_secs()));
+        note(&format!("{}: {done} of {all}, {left} left", self.bar.message()));
     }
 
     /// A line for each filter that failed in a run.
@@ -58,13 +76,28 @@ impl Progress {
 }
 
 /// Runs a study under a line of its own.
-pub(super) fn run_watched(study: &Study, quiet: bool) -> Result<StudyResult, HarnessError> {
-    let progress = Progress::new(study.runs.into(), "runs", quiet);
+pub(super) fn run_watched(study: &Study, journal: Option<&Journal>, quiet: bool) -> Result<StudyResult, HarnessError> {
+    watched(study, study.runs, quiet, |finished| study.run(journal, finished))
+}
+
+/// Makes a part of a study's runs, likewise.
+pub(super) fn shard_watched(study: &Study, shard: Shard, journal: &Journal, quiet: bool) -> Result<(), HarnessError> {
+    let runs = u32::try_from(shard.runs(study.runs).len()).unwrap_or(u32::MAX);
+    watched(study, runs, quiet, |finished| study.run_shard(shard, journal, finished))
+}
+
+fn watched<T>(
+    study: &Study,
+    runs: u32,
+    quiet: bool,
+    work: impl FnOnce(&mut dyn FnMut(u32, &[RunRow])) -> Result<T, StudyError>,
+) -> Result<T, HarnessError> {
+    let progress = Progress::new(runs.into(), "runs", quiet);
     progress.doing(format!("{}, {}", study.spec.world.name, study.case));
-    let result = study.run(|run, rows| {
+    let result = work(&mut |run, rows| {
         progress.failures(study, run, rows);
         progress.advance(1);
-    })?;
+    });
     progress.end();
-    Ok(result)
+    Ok(result?)
 }

@@ -129,7 +129,7 @@ impl<'a> Bench<'a> {
 impl Laboratory for Bench<'_> {
     fn study(&mut self, request: &Request) -> Result<(Plan, Study, StudyResult), HarnessError> {
         let study = self.set_up(request)?;
-        let result = run_watched(&study, self.args.build.quiet)?;
+        let result = run_watched(&study, None, self.args.build.quiet)?;
         Ok((self.plan(request), study, result))
     }
 

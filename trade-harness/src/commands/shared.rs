@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use study::{Models, NAV, OwnFmus, Plan, TRUTH};
+use study::{Models, NAV, OwnFmus, Plan, TRUTH, stop, stop_asked};
 
 use crate::HarnessError;
 use crate::cli::{BuildArgs, StudyArgs, WorkArgs, WorldArgs};
@@ -11,6 +11,9 @@ use crate::output::OutputFolder;
 use crate::pack::{default_folder, fmu_path};
 use crate::report::manifest::peak_memory_mib;
 use crate::tuning::sets::TunedFile;
+
+/// Exit code of a command that was asked to stop.
+pub(super) const INTERRUPTED: u8 = 130;
 
 /// How a command that could do its work ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,6 +62,23 @@ pub(super) fn own_fmus(args: &BuildArgs, needed: &[&str]) -> Result<Vec<PathBuf>
         }
     };
     needed.iter().map(existing).collect()
+}
+
+/// Lets studies end cleanly on Ctrl-C or TERM; a second time, at once.
+///
+/// # Errors
+/// When the system does not allow it.
+pub(super) fn end_when_asked() -> Result<(), HarnessError> {
+    let handler = || {
+        if stop_asked() {
+            std::process::exit(INTERRUPTED.into());
+        }
+        stop();
+    };
+    match ctrlc::set_handler(handler) {
+        Ok(()) | Err(ctrlc::Error::MultipleHandlers) => Ok(()),
+        Err(source) => Err(HarnessError::Signals { source }),
+    }
 }
 
 /// A folder for files that no one keeps.

@@ -17,6 +17,9 @@ use crate::output::OutputFolder;
 pub struct Manifest {
     /// Version of the harness.
     pub harness_version: &'static str,
+    /// What tells the studies from any others ([`crate::store::identity`]); of a command whose folder is its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub identity: Option<String>,
     /// Each FMU by its name in the study.
     pub models: BTreeMap<String, ModelFacts>,
     /// Each world.
@@ -176,6 +179,7 @@ impl Manifest {
     pub fn new(models: &Models, studies: Vec<StudyFacts>, jobs: usize, wall: Duration) -> Self {
         Self {
             harness_version: env!("CARGO_PKG_VERSION"),
+            identity: None,
             models: models.all().map(|m| (m.name.clone(), ModelFacts::new(m))).collect(),
             studies,
             files: Vec::new(),

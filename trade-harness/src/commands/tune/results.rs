@@ -79,7 +79,7 @@ impl Done {
             ("tuned.json".to_owned(), self.file.render()?),
         ];
         let written = self.studies.len().saturating_sub(1);
-        report.write(folder, models, judge, written, more)
+        report.write(folder, models, judge, written, more, None)
     }
 
     fn markdown(&self, rankings: &[Ranking<'_>], args: &TuneArgs) -> String {

@@ -1,0 +1,217 @@
+//! Studies that are killed, stopped, split and begun twice: what is finished stays finished, and the bytes are those of a study
+//! that nobody disturbed.
+
+#![cfg(unix)]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
+
+mod common;
+
+use common::{command, harness, harness_ok, results};
+use rand::RngExt;
+use std::path::Path;
+use std::process::{Child, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+const STUDY: [&str; 7] = [
+    "compare",
+    "--scenario",
+    "leo_venting",
+    "--filters",
+    "fixed_q,snc",
+    "--runs",
+    "30",
+];
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+fn start(out: &Path, more: &[&str]) -> Child {
+    let arguments = [&STUDY, more, &["--out", text(out)]].concat();
+    command(&arguments)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+fn signal(child: &Child, name: &str) {
+    let sent = std::process::Command::new("kill")
+        .args([&format!("-{name}"), &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+}
+
+fn ended(child: Child) -> (ExitStatus, String) {
+    let output = child.wait_with_output().unwrap();
+    (output.status, String::from_utf8(output.stderr).unwrap())
+}
+
+/// Finished runs of a folder, as whoever goes on finds them.
+fn finished(folder: &Path) -> usize {
+    let kept = folder.join(".unfinished");
+    let Ok(identity) = std::fs::read_to_string(kept.join("identity")) else {
+        return 0;
+    };
+    let journal = kept.join("leo_venting_nominal.journal");
+    study::Journal::open(&journal, &identity).unwrap().runs().len()
+}
+
+/// Size of the journals of a folder.
+fn journal(folder: &Path) -> u64 {
+    let entries = std::fs::read_dir(folder.join(".unfinished"))
+        .into_iter()
+        .flatten()
+        .flatten();
+    let journals = entries.filter(|e| e.path().extension().is_some_and(|e| e == "journal"));
+    journals.map(|e| e.metadata().unwrap().len()).sum()
+}
+
+#[test]
+fn killed_at_any_moment_a_study_goes_on_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let (whole, killed) = (folder.path().join("whole"), folder.path().join("killed"));
+    harness_ok(&[&STUDY[..], &["--out", text(&whole)]].concat());
+    let expected = results(&whole);
+    assert!(expected.contains_key("runs.csv") && !whole.join(".unfinished").exists());
+    let mut moments = numerics::stream(8, 0, numerics::Source::Search);
+    let (mut grown, mut last) = (0, 0);
+    for time in 0..20 {
+        let moment = Duration::from_millis(moments.random_range(1..400));
+        let mut child = start(&killed, if time == 0 { &[] } else { &["--resume"] });
+        std::thread::sleep(moment);
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let kept = finished(&killed);
+        assert!(kept >= last, "what was finished is lost after {moment:?}");
+        grown += u32::from(kept > last);
+        last = kept;
+    }
+    assert!(grown >= 3, "killed too early to tell: the journal grew {grown} times");
+    // Without --resume nothing is thrown away.
+    if killed.join(".unfinished/identity").exists() {
+        let (status, said) = ended(start(&killed, &[]));
+        assert!(
+            status.code() == Some(2) && said.contains("--resume") && said.contains("--force"),
+            "{said}"
+        );
+    }
+    harness_ok(&[&STUDY[..], &["--resume", "--out", text(&killed)]].concat());
+    assert!(results(&killed) == expected, "bytes differ");
+    assert!(!killed.join(".unfinished").exists());
+    // Once more: it is complete, and stays as it is.
+    let said = harness_ok(&[&STUDY[..], &["--resume", "--out", text(&killed)]].concat());
+    assert!(said.contains("complete"), "{said}");
+}
+
+#[test]
+fn asked_to_stop_a_study_ends_at_once_and_says_how_to_go_on() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["INT", "TERM"] {
+        let out = folder.path().join(name);
+        let child = start(&out, &[]);
+        let begun = Instant::now();
+        while journal(&out) < 1_000_000 && begun.elapsed() < Duration::from_secs(60) {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let asked = Instant::now();
+        signal(&child, name);
+        let (status, said) = ended(child);
+        assert_eq!(status.code(), Some(130), "{said}");
+        assert!(said.contains("--resume"), "{said}");
+        assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
+        assert!(journal(&out) >= 1_000_000);
+    }
+}
+
+#[test]
+fn a_folder_belongs_to_one_study_and_one_process() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("mine");
+    let mut first = start(&out, &[]);
+    let begun = Instant::now();
+    while journal(&out) == 0 && begun.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let (status, said) = ended(start(&out, &["--resume"]));
+    assert!(status.code() == Some(2) && said.contains("in use"), "{said}");
+    first.kill().unwrap();
+    first.wait().unwrap();
+    let other = [&STUDY[..], &["--seed", "2", "--out", text(&out)]].concat();
+    let refused = harness(&other);
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert!(
+        refused.status.code() == Some(2) && said.contains("another study") && said.contains("--force"),
+        "{said}"
+    );
+    assert!(journal(&out) > 0);
+    harness_ok(&[&other[..], &["--force"]].concat());
+    let aside = folder.path().join("mine.old-1");
+    assert!(journal(&aside) > 0 && out.join("manifest.json").exists());
+    // A complete study of another kind is refused alike.
+    let refused = harness(&[&STUDY[..], &["--out", text(&out)]].concat());
+    assert_eq!(refused.status.code(), Some(2));
+}
+
+#[test]
+fn parts_merged_are_the_bytes_of_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
+    let study = [
+        "compare",
+        "--scenario",
+        "leo_venting,nrho_venting",
+        "--filters",
+        "snc",
+        "--runs",
+        "7",
+    ];
+    let part = |shard: &str| harness_ok(&[&study[..], &["--shard", shard, "--out", text(&parts)]].concat());
+    harness_ok(&[&study[..], &["--out", text(&whole)]].concat());
+    part("2/3");
+    part("1/3");
+    let early = harness(&["merge", text(&parts)]);
+    let said = String::from_utf8(early.stderr).unwrap();
+    assert!(early.status.code() == Some(2) && said.contains("2 of 7 runs"), "{said}");
+    part("3/3");
+    harness_ok(&["merge", text(&parts)]);
+    assert!(results(&parts) == results(&whole), "bytes differ");
+    let none = harness(&["merge", text(&whole)]);
+    assert_eq!(none.status.code(), Some(2));
+}
+
+/// A disk that is full: what is finished is kept, and the message says so.
+#[test]
+fn a_full_disk_loses_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("full");
+    let arguments = [&STUDY[..], &["--out", text(&out)]].concat();
+    let command = command(&arguments);
+    // A limit on the size of a file stands in for the disk.
+    let limited = |blocks: u32| {
+        let quoted: Vec<String> = std::iter::once(command.get_program())
+            .chain(command.get_args())
+            .map(|a| format!("'{}'", a.to_str().unwrap()))
+            .collect();
+        let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec {}", quoted.join(" "));
+        let mut shell = std::process::Command::new("sh");
+        shell
+            .args(["-c", &script])
+            .current_dir(common::root())
+            .output()
+            .unwrap()
+    };
+    // In blocks of 512 bytes: 15 MB, the FMUs unpacked and some runs.
+    let output = limited(30_000);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        output.status.code() == Some(2) && said.contains("every finished run before it is safe"),
+        "{said}"
+    );
+    let kept = journal(&out);
+    assert!(kept > 1_000_000, "{kept}");
+    harness_ok(&[&arguments[..], &["--resume"]].concat());
+    let whole = folder.path().join("whole");
+    harness_ok(&[&STUDY[..], &["--out", text(&whole)]].concat());
+    assert!(results(&out) == results(&whole), "bytes differ");
+}

@@ -1,0 +1,259 @@
+//! The folder of a study: it belongs to one study, one process works in it, and what is finished in it stays finished.
+//!
+//! While a study is under way its folder holds `.unfinished/`: a lock, the identity of the study, the journals of its runs and
+//! whatever is temporary. A study that is complete has `manifest.json`, which holds the identity, and no `.unfinished/`.
+
+use std::fs::{self, File, TryLockError};
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+use study::{Journal, Models, Study, scheme_name};
+
+use crate::HarnessError;
+use crate::output::{OutputFolder, write_whole};
+
+/// Where an unfinished study keeps what it needs to go on.
+const UNFINISHED: &str = ".unfinished";
+
+/// What becomes of a study that is in the folder already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Claim {
+    /// A complete one of the same identity is made again; any other is refused.
+    Fresh,
+    /// An unfinished one of the same identity goes on.
+    Resume,
+    /// It is set aside under another name.
+    Force,
+}
+
+/// A folder that this process alone works in.
+#[derive(Debug)]
+pub struct StudyFolder {
+    folder: OutputFolder,
+    unfinished: PathBuf,
+    identity: String,
+    // Held until the process ends, however it ends.
+    _lock: File,
+}
+
+impl StudyFolder {
+    /// Takes a folder for a study.
+    ///
+    /// # Errors
+    /// [`HarnessError::InUse`], [`HarnessError::OtherStudy`], [`HarnessError::Unfinished`], [`HarnessError::Write`].
+    pub fn claim(path: &Path, identity: &str, claim: Claim) -> Result<Self, HarnessError> {
+        let failed = |path: &Path| {
+            let path = path.to_owned();
+            move |source| HarnessError::Write { path, source }
+        };
+        let unfinished = path.join(UNFINISHED);
+        let lock = |folder: &OutputFolder| -> Result<File, HarnessError> {
+            let unfinished = folder.path().join(UNFINISHED);
+            fs::create_dir_all(&unfinished).map_err(failed(&unfinished))?;
+            let name = unfinished.join("lock");
+            let lock = File::create(&name).map_err(failed(&name))?;
+            match lock.try_lock() {
+                Ok(()) => Ok(lock),
+                Err(TryLockError::WouldBlock) => Err(HarnessError::InUse {
+                    path: folder.path().to_owned(),
+                }),
+                Err(TryLockError::Error(source)) => Err(HarnessError::Write { path: name, source }),
+            }
+        };
+        let begun = unfinished.join("identity").exists();
+        let mut folder = OutputFolder::prepare(path)?;
+        let mut held = lock(&folder)?;
+        if claim == Claim::Force && (begun || folder.path().join("manifest.json").exists()) {
+            let aside = free_name(path);
+            fs::rename(path, &aside).map_err(failed(path))?;
+            folder = OutputFolder::prepare(path)?;
+            held = lock(&folder)?;
+        }
+        let this = Self {
+            folder,
+            unfinished,
+            identity: identity.to_owned(),
+            _lock: held,
+        };
+        this.check(claim)?;
+        let scratch = this.unfinished.join("tmp");
+        let emptied = if scratch.exists() {
+            fs::remove_dir_all(&scratch)
+        } else {
+            Ok(())
+        };
+        emptied
+            .and_then(|()| fs::create_dir_all(&scratch))
+            .map_err(failed(&scratch))?;
+        // FMUs are unpacked there, so that nothing is left behind anywhere else, whatever happens.
+        let _ = tempfile::env::override_temp_dir(&scratch);
+        write_whole(&this.unfinished.join("identity"), identity.as_bytes())?;
+        Ok(this)
+    }
+
+    /// Whether the folder holds this study, complete.
+    pub fn is_complete(path: &Path, identity: &str) -> bool {
+        let text = fs::read(path.join("manifest.json")).unwrap_or_default();
+        let manifest: Option<serde_json::Value> = serde_json::from_slice(&text).ok();
+        !path.join(UNFINISHED).join("identity").exists()
+            && manifest.is_some_and(|manifest| manifest["identity"].as_str() == Some(identity))
+    }
+
+    /// Whether the study may use what the folder holds.
+    fn check(&self, claim: Claim) -> Result<(), HarnessError> {
+        let path = self.folder.path().to_owned();
+        if let Ok(identity) = fs::read_to_string(self.unfinished.join("identity")) {
+            if identity != self.identity {
+                return Err(HarnessError::OtherStudy { path });
+            }
+            let journals = fs::read_dir(&self.unfinished).into_iter().flatten().flatten();
+            let begun = journals
+                .into_iter()
+                .any(|e| e.path().extension().is_some_and(|e| e == "journal"));
+            return if claim == Claim::Fresh && begun {
+                Err(HarnessError::Unfinished { path })
+            } else {
+                Ok(())
+            };
+        }
+        let manifest = path.join("manifest.json");
+        let Ok(text) = fs::read(&manifest) else { return Ok(()) };
+        let found: Option<serde_json::Value> = serde_json::from_slice(&text).ok();
+        let same = found.is_some_and(|m| m["identity"].as_str() == Some(&self.identity));
+        if same {
+            Ok(())
+        } else {
+            Err(HarnessError::OtherStudy { path })
+        }
+    }
+
+    /// Where results go.
+    pub fn output(&self) -> &OutputFolder {
+        &self.folder
+    }
+
+    /// What tells this study from any other.
+    pub fn identity(&self) -> &str {
+        &self.identity
+    }
+
+    /// The journal of one world and case.
+    ///
+    /// # Errors
+    /// [`study::StudyError::Journal`].
+    pub fn journal(&self, study: &Study) -> Result<Journal, HarnessError> {
+        let name = format!("{}_{}.journal", study.spec.world.name, study.case);
+        Ok(Journal::open(&self.unfinished.join(name), &self.identity)?)
+    }
+
+    /// Keeps a file beside the journals, whole.
+    ///
+    /// # Errors
+    /// [`HarnessError::Write`].
+    pub fn keep(&self, name: &str, contents: &[u8]) -> Result<(), HarnessError> {
+        write_whole(&self.unfinished.join(name), contents)
+    }
+
+    /// The study is complete: nothing is left but its results.
+    ///
+    /// # Errors
+    /// [`HarnessError::Write`].
+    pub fn complete(self) -> Result<(), HarnessError> {
+        fs::remove_dir_all(&self.unfinished).map_err(|source| HarnessError::Write {
+            path: self.unfinished.clone(),
+            source,
+        })
+    }
+}
+
+/// `PATH.old-1`, or the first of these names that is free.
+fn free_name(path: &Path) -> PathBuf {
+    let name = |n: u32| {
+        let mut text = path.as_os_str().to_owned();
+        text.push(format!(".old-{n}"));
+        PathBuf::from(text)
+    };
+    let mut n = 1;
+    while name(n).exists() {
+        n += 1;
+    }
+    name(n)
+}
+
+/// Everything that decides what the results of studies are, and nothing that does not: not the threads, not the names of files.
+#[derive(Serialize)]
+struct Facts<'a> {
+    version: &'a str,
+    fmus: Vec<(String, String)>,
+    studies: Vec<StudyIdentity<'a>>,
+}
+
+#[derive(Serialize)]
+struct StudyIdentity<'a> {
+    mission: &'a interface::Mission,
+    case: &'a str,
+    runs: u32,
+    seed: i32,
+    duration_s: f64,
+    scored_from_s: f64,
+    step_s: f64,
+    sample_period_s: f64,
+    scheme: &'a str,
+    parts: Vec<PartIdentity<'a>>,
+}
+
+#[derive(Serialize)]
+struct PartIdentity<'a> {
+    label: &'a str,
+    model: &'a str,
+    parameters: Vec<&'a (String, String)>,
+}
+
+/// SHA-256 of what tells the studies of one command from any others: missions, parameters, FMUs, seeds, lengths.
+///
+/// # Errors
+/// An FMU that cannot be read any more.
+pub fn identity(studies: &[Study], models: &Models) -> Result<String, HarnessError> {
+    let fmus = models.all().map(|model| {
+        let path = model.fmu.path();
+        let bytes = fs::read(path).map_err(|source| HarnessError::Read {
+            path: path.to_owned(),
+            source,
+        })?;
+        Ok((model.name.clone(), hex(&Sha256::digest(&bytes))))
+    });
+    let studies = studies.iter().map(|study| {
+        let spec = &study.spec;
+        let parts = std::iter::once(&spec.truth).chain(&spec.filters).map(|part| {
+            // Where the mission's file stands is no matter; what stands in it is told.
+            PartIdentity {
+                label: &part.label,
+                model: &part.model,
+                parameters: part.record.iter().filter(|(name, _)| name != "mission_file").collect(),
+            }
+        });
+        StudyIdentity {
+            mission: &spec.world.mission,
+            case: &study.case,
+            runs: study.runs,
+            seed: spec.seed,
+            duration_s: spec.world.duration_s,
+            scored_from_s: spec.world.scored_from_s,
+            step_s: spec.step,
+            sample_period_s: spec.sample_period,
+            scheme: scheme_name(spec.scheme),
+            parts: parts.collect(),
+        }
+    });
+    let facts = Facts {
+        version: env!("CARGO_PKG_VERSION"),
+        fmus: fmus.collect::<Result<_, HarnessError>>()?,
+        studies: studies.collect(),
+    };
+    Ok(hex(&Sha256::digest(serde_json::to_vec(&facts)?)))
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
