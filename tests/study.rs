@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{fmu, harness, harness_ok, read_csv, repacked, results};
+use common::{files, fmu, harness, harness_ok, read_csv, repacked, results};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

@@ -86,7 +86,7 @@ pub fn results(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 }
 
 /// Every file of a folder with its contents.
-fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+pub fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = BTreeMap::new();
     for entry in std::fs::read_dir(folder).unwrap().map(Result::unwrap) {
         if entry.path().is_dir() {

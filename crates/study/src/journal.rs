@@ -24,6 +24,8 @@ const FRAME_HEAD: usize = 12;
 pub struct Journal {
     path: PathBuf,
     state: Mutex<State>,
+    /// Memory of frames that are written, for the next: they take some megabytes each.
+    spare: Mutex<Vec<Vec<u8>>>,
 }
 
 /// By run: where its frame's contents begin, and their length.
@@ -79,6 +81,7 @@ impl Journal {
         Ok(Self {
             path: path.to_owned(),
             state: Mutex::new(State { file, end, places }),
+            spare: Mutex::default(),
         })
     }
 
@@ -102,7 +105,7 @@ impl Journal {
             .seek(SeekFrom::Start(begin))
             .and_then(|_| state.file.read_exact(&mut contents));
         read.map_err(|source| self.failed(source))?;
-        let outcome = postcard::from_bytes(&contents);
+        let outcome = Outcome::from_bytes(&contents);
         outcome.map(Some).map_err(|e| self.failed(io::Error::other(e)))
     }
 
@@ -111,8 +114,9 @@ impl Journal {
     /// # Errors
     /// [`StudyError::Journal`], as when the disk is full; the runs before it stand.
     pub fn append(&self, outcome: &Outcome) -> Result<(), StudyError> {
-        let mut frame = vec![0; FRAME_HEAD];
-        frame = postcard::to_extend(outcome, frame).map_err(|e| self.failed(io::Error::other(e)))?;
+        let mut head = self.spare().pop().unwrap_or_default();
+        head.resize(FRAME_HEAD, 0);
+        let mut frame = outcome.to_bytes(head).map_err(|e| self.failed(io::Error::other(e)))?;
         let contents = &frame[FRAME_HEAD..];
         let length = u32::try_from(contents.len()).map_err(|e| self.failed(io::Error::other(e)))?;
         let checksum = crc32fast::hash(contents);
@@ -132,11 +136,18 @@ impl Journal {
         }
         state.end += frame.len() as u64;
         state.places.insert(outcome.run, (begin + FRAME_HEAD as u64, length));
+        drop(state);
+        frame.clear();
+        self.spare().push(frame);
         Ok(())
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn spare(&self) -> MutexGuard<'_, Vec<Vec<u8>>> {
+        self.spare.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn failed(&self, source: io::Error) -> StudyError {

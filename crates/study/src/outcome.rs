@@ -1,15 +1,13 @@
 //! One run as a study keeps it: what each filter did in it, with every record that statistics are made of.
 
-use serde::{Deserialize, Serialize};
-
 use crate::fold::RunRow;
-use crate::record::Record;
+use crate::record::{self, Record};
 use crate::run::{SlaveTime, run_once};
 use crate::score::score;
 use crate::spec::Spec;
 
 /// A run that is over, on its way to the statistics and to the journal.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone)]
 pub struct Outcome {
     /// Number of the run.
     pub run: u32,
@@ -22,7 +20,7 @@ pub struct Outcome {
 }
 
 /// What one filter did in it.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone)]
 pub struct Part {
     /// The run in one line.
     pub row: RunRow,
@@ -59,5 +57,42 @@ impl Outcome {
             truth_time: report.truth_time,
             parts: parts.collect(),
         }
+    }
+}
+
+/// All of an outcome but its records.
+type Head = (u32, u64, SlaveTime, Vec<(RunRow, SlaveTime)>);
+
+impl Outcome {
+    /// As bytes, behind those that are there; the number of the run comes first.
+    ///
+    /// # Errors
+    /// None but for lack of memory.
+    pub(crate) fn to_bytes(&self, bytes: Vec<u8>) -> Result<Vec<u8>, postcard::Error> {
+        let rows = self.parts.iter().map(|part| (&part.row, part.time)).collect::<Vec<_>>();
+        let mut bytes = postcard::to_extend(&(self.run, self.steps, self.truth_time, rows), bytes)?;
+        for part in &self.parts {
+            record::to_bytes(&part.records, &mut bytes);
+        }
+        Ok(bytes)
+    }
+
+    /// From such bytes.
+    ///
+    /// # Errors
+    /// When they are something else.
+    pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Self, postcard::Error> {
+        let (head, mut rest) = postcard::take_from_bytes::<Head>(bytes)?;
+        let (run, steps, truth_time, rows) = head;
+        let parts = rows.into_iter().map(|(row, time)| {
+            let records = record::from_bytes(&mut rest).ok_or(postcard::Error::DeserializeUnexpectedEnd)?;
+            Ok(Part { row, records, time })
+        });
+        Ok(Self {
+            run,
+            steps,
+            truth_time,
+            parts: parts.collect::<Result<_, postcard::Error>>()?,
+        })
     }
 }

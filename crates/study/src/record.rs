@@ -1,7 +1,6 @@
 //! What a study keeps of one estimate.
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 
 /// Vector quantities that statistics are kept of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,7 +36,7 @@ impl Quantity {
 
 /// One row of numbers of one filter in one run. A number that is absent is NaN inside and `None` to the outside: some twenty
 /// thousand rows wait for each filter and thread, and an option would take a word more for each vector.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy)]
 pub struct Record {
     /// Place of the epoch on the study's grid, from 0.
     pub epoch: u32,
@@ -124,6 +123,81 @@ impl Record {
     pub fn set_nis(&mut self, value: Option<f64>) {
         self.nis = value.unwrap_or(f64::NAN);
     }
+}
+
+/// Vectors of a row, one behind the other: errors, variances, by quantity.
+const VECTORS: usize = 2 * QUANTITIES;
+
+/// Rows as bytes. The true acceleration is left out: what is made of it stands in the line of the run.
+///
+/// First which vectors any row has, one bit each; then each row with those alone.
+pub(crate) fn to_bytes(records: &[Record], bytes: &mut Vec<u8>) {
+    let vectors = |r: &Record| r.errors.into_iter().chain(r.variances);
+    let mut mask = 0_u16;
+    for record in records {
+        for (bit, vector) in vectors(record).enumerate() {
+            mask |= u16::from(present(vector).is_some()) << bit;
+        }
+    }
+    bytes.extend(mask.to_le_bytes());
+    bytes.extend((records.len() as u32).to_le_bytes());
+    bytes.reserve(records.len() * row_length(mask));
+    for record in records {
+        bytes.extend_from_slice(&record.epoch.to_le_bytes());
+        bytes.extend([
+            record.dimension,
+            u8::from(record.covariance_broken),
+            u8::from(record.lost),
+        ]);
+        for scalar in [record.nees, record.nees6, record.nis] {
+            bytes.extend_from_slice(&scalar.to_le_bytes());
+        }
+        for (bit, vector) in vectors(record).enumerate() {
+            if mask & (1 << bit) != 0 {
+                vector.iter().for_each(|x| bytes.extend_from_slice(&x.to_le_bytes()));
+            }
+        }
+    }
+}
+
+fn row_length(mask: u16) -> usize {
+    4 + 3 + 3 * 8 + 24 * mask.count_ones() as usize
+}
+
+/// Rows from the front of such bytes, which then begin behind them; `None` when they are too short.
+pub(crate) fn from_bytes(bytes: &mut &[u8]) -> Option<Vec<Record>> {
+    let mask = u16::from_le_bytes(take(bytes)?);
+    let count = u32::from_le_bytes(take(bytes)?) as usize;
+    if bytes.len() < count.checked_mul(row_length(mask))? {
+        return None;
+    }
+    let mut records = Vec::with_capacity(count);
+    for _ in 0..count {
+        let mut record = Record::new(u32::from_le_bytes(take(bytes)?) as usize);
+        let [dimension, broken, lost] = take(bytes)?;
+        record.dimension = dimension;
+        (record.covariance_broken, record.lost) = (broken != 0, lost != 0);
+        for scalar in [&mut record.nees, &mut record.nees6, &mut record.nis] {
+            *scalar = f64::from_le_bytes(take(bytes)?);
+        }
+        for (bit, vector) in record.errors.iter_mut().chain(&mut record.variances).enumerate() {
+            if mask & (1 << bit) != 0 {
+                for x in vector {
+                    *x = f64::from_le_bytes(take(bytes)?);
+                }
+            }
+        }
+        records.push(record);
+    }
+    Some(records)
+}
+
+const _: () = assert!(VECTORS <= 16, "a bit for each");
+
+fn take<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
+    let (first, rest) = bytes.split_first_chunk()?;
+    *bytes = rest;
+    Some(*first)
 }
 
 fn present(v: Vector3<f64>) -> Option<Vector3<f64>> {

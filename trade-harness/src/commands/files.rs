@@ -1,5 +1,9 @@
 //! The files of finished studies.
 
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
 use study::{Models, Plan, Study, StudyResult, Summary};
 
 use crate::HarnessError;
@@ -67,16 +71,20 @@ impl<'a> Report<'a> {
             ("failures.csv".to_owned(), runs::render_failures(&named)?),
             ("timing.csv".to_owned(), timing::render(&self.timings)?),
         ])?;
+        let mut to_write = Vec::new();
         for (index, study) in named.iter().enumerate() {
             for filter in study.filters {
                 let name = format!("epochs/{}_{}_{}.csv", study.spec.world.name, filter.label, study.case);
-                // Written as they are rendered: together they take more room than the results they show.
                 if index >= written {
-                    folder.write(&name, &epochs::render(study.spec, filter)?)?;
+                    to_write.push((name.clone(), study.spec, filter));
                 }
                 files.push(name);
             }
         }
+        // Written as they are rendered: together they take more room than the results they show.
+        in_parallel(&to_write, plan.threads(), |(name, spec, filter)| {
+            folder.write(name, &epochs::render(spec, filter)?).map(drop)
+        })?;
         files.extend(folder.write_all(more)?);
         let wall = self.results.iter().map(|r| r.wall).sum();
         let studies = self.studies.iter().map(|s| StudyFacts::new(plan, s)).collect();
@@ -85,4 +93,27 @@ impl<'a> Report<'a> {
         manifest.write(folder, &mut files)?;
         Ok(files)
     }
+}
+
+/// Does something with every item, on some threads.
+fn in_parallel<T: Sync>(
+    items: &[T],
+    threads: usize,
+    work: impl Fn(&T) -> Result<(), HarnessError> + Sync,
+) -> Result<(), HarnessError> {
+    let next = AtomicUsize::new(0);
+    let worker = || -> Result<(), HarnessError> {
+        while let Some(item) = items.get(next.fetch_add(1, Ordering::Relaxed)) {
+            work(item)?;
+        }
+        Ok(())
+    };
+    thread::scope(|scope| {
+        let workers: Vec<_> = (1..threads.min(items.len())).map(|_| scope.spawn(worker)).collect();
+        let own = worker();
+        let theirs = workers
+            .into_iter()
+            .map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        theirs.fold(own, Result::and)
+    })
 }
