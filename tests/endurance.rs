@@ -76,12 +76,16 @@ fn killed_at_any_moment_a_study_goes_on_to_the_same_bytes() {
     assert!(expected.contains_key("runs.csv") && !whole.join(".unfinished").exists());
     let mut moments = numerics::stream(8, 0, numerics::Source::Search);
     let (mut grown, mut last) = (0, 0);
+    let first = time_to_the_first_run(&folder.path().join("first"));
     for time in 0..20 {
-        let moment = Duration::from_millis(moments.random_range(1..400));
+        let moment = first.mul_f64(moments.random_range(0.0..2.5));
         let mut child = start(&killed, if time == 0 { &[] } else { &["--resume"] });
         std::thread::sleep(moment);
         child.kill().unwrap();
         child.wait().unwrap();
+        if killed.join("manifest.json").exists() {
+            break;
+        }
         let kept = finished(&killed);
         assert!(kept >= last, "what was finished is lost after {moment:?}");
         grown += u32::from(kept > last);
@@ -102,6 +106,18 @@ fn killed_at_any_moment_a_study_goes_on_to_the_same_bytes() {
     // Once more: it is complete, and stays as it is.
     let said = harness_ok(&[&STUDY[..], &["--resume", "--out", text(&killed)]].concat());
     assert!(said.contains("complete"), "{said}");
+}
+
+/// How long it takes here and now until a run is kept.
+fn time_to_the_first_run(out: &Path) -> Duration {
+    let begun = Instant::now();
+    let mut child = start(out, &[]);
+    while journal(out) < 1_000_000 && begun.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    begun.elapsed()
 }
 
 #[test]
