@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use study::{Assignment, FilterChoice, ForeignFilter, Mapping, Shard, Variation, check_case};
+use study::{Assignment, FilterChoice, ForeignFilter, Limits, Mapping, Shard, Variation, check_case};
 
 use crate::pack;
 use crate::tuning::ranges::Range;
@@ -42,6 +42,9 @@ pub enum Command {
     Mission(MissionCommand),
     /// Tell what every column of the CSV files means
     Columns,
+    /// Make runs for a study of another process
+    #[command(hide = true)]
+    Worker(WorkerArgs),
 }
 
 /// Where our FMUs come from.
@@ -255,6 +258,9 @@ pub struct CompareArgs {
     /// What becomes of a study that is in the folder.
     #[command(flatten)]
     pub folder: FolderArgs,
+    /// Where runs are made.
+    #[command(flatten)]
+    pub isolation: IsolationArgs,
     /// End with exit code 1 when the scenario as published misses one of its bounds
     #[arg(long, conflicts_with_all = ["assignments", "variations", "truth"])]
     pub check: bool,
@@ -275,6 +281,51 @@ pub struct FolderArgs {
     /// Do part I of N of the runs, for 'merge' to put together
     #[arg(long, value_name = "I/N", conflicts_with = "check")]
     pub shard: Option<Shard>,
+}
+
+/// Where runs are made: in this process, or in others that may die of an FMU.
+#[derive(Debug, Clone, Args)]
+pub struct IsolationArgs {
+    /// Make runs in worker processes, so that an FMU that crashes, loops or eats memory costs its own runs alone [default: as
+    /// soon as a foreign FMU takes part]
+    #[arg(long, overrides_with = "no_isolate")]
+    pub isolate: bool,
+    /// Make runs in this process, foreign FMUs or not
+    #[arg(long)]
+    pub no_isolate: bool,
+    /// Longest time of one call of an FMU in a worker, s
+    #[arg(long, value_name = "S", default_value_t = Limits::default().call_s, value_parser = seconds)]
+    pub call_limit: f64,
+    /// Longest time of a run in a worker, s
+    #[arg(long, value_name = "S", default_value_t = Limits::default().run_s, value_parser = seconds)]
+    pub run_limit: f64,
+    /// Most memory of a worker, MiB
+    #[arg(long, value_name = "MIB", default_value_t = Limits::default().memory >> 20, value_parser = clap::value_parser!(u64).range(64..=1 << 24))]
+    pub memory_limit: u64,
+}
+
+impl IsolationArgs {
+    /// Limits of the workers.
+    pub fn limits(&self) -> Limits {
+        Limits {
+            call_s: self.call_limit,
+            run_s: self.run_limit,
+            memory: self.memory_limit << 20,
+        }
+    }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let wrong = || format!("'{text}' is no positive time in seconds");
+    let value: f64 = text.parse().map_err(|_| wrong())?;
+    (1e-3..=1e9).contains(&value).then_some(value).ok_or_else(wrong)
+}
+
+/// `worker`.
+#[derive(Debug, Args)]
+pub struct WorkerArgs {
+    /// What the parent has written down
+    pub job: PathBuf,
 }
 
 /// `merge`.

@@ -147,12 +147,14 @@ impl StudyFolder {
         Ok(Journal::open(&self.unfinished.join(name), &self.identity)?)
     }
 
-    /// Keeps a file beside the journals, whole.
+    /// Keeps a file beside the journals, whole; returns its path.
     ///
     /// # Errors
     /// [`HarnessError::Write`].
-    pub fn keep(&self, name: &str, contents: &[u8]) -> Result<(), HarnessError> {
-        write_whole(&self.unfinished.join(name), contents)
+    pub fn keep(&self, name: &str, contents: &[u8]) -> Result<PathBuf, HarnessError> {
+        let path = self.unfinished.join(name);
+        write_whole(&path, contents)?;
+        Ok(path)
     }
 
     /// The study is complete: nothing is left but its results.

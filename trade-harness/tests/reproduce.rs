@@ -56,7 +56,7 @@ impl Laboratory for Mocks {
             jobs: 1,
             case: request.case().to_owned(),
         };
-        let result = study.run(None, |_, _| ())?;
+        let result = study.run(study::Engine::default(), |_, _| ())?;
         let row = |filter| Summary::new(request.world(), request.case(), filter);
         self.rows.extend(result.filters.iter().map(row));
         self.asked.push(request.clone());

@@ -19,7 +19,7 @@ fn study(spec: Spec, jobs: usize) -> (Spec, Vec<FilterResult>) {
         jobs,
         case: "nominal".to_owned(),
     };
-    let filters = study.run(None, |_, _| ()).unwrap().filters;
+    let filters = study.run(study::Engine::default(), |_, _| ()).unwrap().filters;
     (study.spec, filters)
 }
 

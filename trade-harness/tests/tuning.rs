@@ -33,7 +33,7 @@ fn a_tally_says_what_a_study_says() {
         jobs: 2,
         case: "nominal".to_owned(),
     };
-    let filters = study.run(None, |_, _| ()).unwrap().filters;
+    let filters = study.run(study::Engine::default(), |_, _| ()).unwrap().filters;
     let mut runs = 0;
     let tallies = evaluate(&study.spec, RUNS, 2, || runs += 1);
     assert_eq!(runs, RUNS);
@@ -184,7 +184,7 @@ fn filters_are_ranked_and_sorted_by_the_objective() {
         jobs: 1,
         case: "nominal".to_owned(),
     };
-    let filters = study.run(None, |_, _| ()).unwrap().filters;
+    let filters = study.run(study::Engine::default(), |_, _| ()).unwrap().filters;
     let rows: Vec<_> = filters
         .iter()
         .rev()

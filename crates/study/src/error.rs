@@ -238,6 +238,18 @@ pub enum StudyError {
         /// The file.
         path: PathBuf,
     },
+    /// A process that makes runs cannot be started or talked to.
+    #[error("a process that makes runs cannot be used: {source}")]
+    Worker {
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A filter refuses its settings.
+    #[error("{why}")]
+    Rehearsal {
+        /// What it says.
+        why: String,
+    },
     /// Somebody has asked the process to stop.
     #[error("stopped as asked; what is finished is kept")]
     Stopped,

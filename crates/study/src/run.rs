@@ -127,7 +127,7 @@ pub fn seat(system: &mut System, participant: &Participant, seed: i32, run: u32)
 
 /// Couples everything and goes through initialization once, so that a bad setting shows before the first run.
 ///
-/// * returns: inputs of the filters that nothing feeds and that keep their start values, as `label: input`.
+/// * returns: what a user should know: inputs of the filters that nothing feeds.
 ///
 /// # Errors
 /// Whatever a slave or the wiring refuses.
@@ -152,7 +152,8 @@ pub fn rehearse(spec: &Spec) -> Result<Vec<String>, StudyError> {
         .unconnected_inputs()
         .into_iter()
         .filter(|u| seats.contains(&u.slave));
-    Ok(open.map(|u| format!("{}: {}", u.slave_name, u.input)).collect())
+    let told = open.map(|u| format!("nothing feeds {}: {}; it keeps its start value", u.slave_name, u.input));
+    Ok(told.collect())
 }
 
 /// Time of one `fmi2DoStep` of a filter that has no new sample: the cost of crossing the interface, s.

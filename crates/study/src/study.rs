@@ -10,6 +10,7 @@ use crate::outcome::Outcome;
 use crate::shard::Shard;
 use crate::spec::Spec;
 use crate::stop::stop_asked;
+use crate::workers::Workers;
 
 /// Runs whose records may wait for an earlier run, beside those that the threads are at: they are what a study needs its
 /// memory for, and runs of one study take about the same time.
@@ -28,6 +29,15 @@ pub struct Study {
     pub case: String,
 }
 
+/// Who makes the runs of a study, and what keeps them.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Engine<'a> {
+    /// Takes each run as it ends; those that it holds already are not made again, and have the same results.
+    pub journal: Option<&'a Journal>,
+    /// Processes that make the runs; `None`: this one.
+    pub workers: Option<&'a Workers>,
+}
+
 /// Everything a study found.
 #[derive(Debug)]
 pub struct StudyResult {
@@ -40,21 +50,17 @@ pub struct StudyResult {
 impl Study {
     /// Runs the study. Results are folded in the order of the runs, so they do not depend on the number of threads.
     ///
-    /// * `journal`: takes each run as it ends; those that it holds already are not made again, and have the same results.
+    /// * `engine`: who makes the runs, and what keeps them.
     /// * `finished`: called after each run with its number and how it ended for each filter.
     ///
     /// # Errors
     /// [`StudyError::Stats`], [`StudyError::Journal`], [`StudyError::Stopped`]; what goes wrong in a run is counted in its
     /// results.
-    pub fn run(
-        &self,
-        journal: Option<&Journal>,
-        mut finished: impl FnMut(u32, &[RunRow]),
-    ) -> Result<StudyResult, StudyError> {
+    pub fn run(&self, engine: Engine<'_>, mut finished: impl FnMut(u32, &[RunRow])) -> Result<StudyResult, StudyError> {
         let begin = Instant::now();
         let labels = self.spec.filters.iter().map(|f| &f.label);
         let mut filters: Vec<_> = labels.map(|label| FilterResult::new(label, &self.spec)).collect();
-        self.each(&Shard::WHOLE.runs(self.runs), journal, |outcome| {
+        self.each(&Shard::WHOLE.runs(self.runs), engine, |outcome| {
             for (filter, part) in filters.iter_mut().zip(outcome.parts) {
                 filter.fold(part.row, &part.records)?;
                 filter.timing.add(outcome.steps, part.time, outcome.truth_time);
@@ -78,10 +84,10 @@ impl Study {
     pub fn run_shard(
         &self,
         shard: Shard,
-        journal: &Journal,
+        engine: Engine<'_>,
         mut finished: impl FnMut(u32, &[RunRow]),
     ) -> Result<(), StudyError> {
-        self.each(&shard.runs(self.runs), Some(journal), |outcome| {
+        self.each(&shard.runs(self.runs), engine, |outcome| {
             let rows: Vec<RunRow> = outcome.parts.into_iter().map(|part| part.row).collect();
             finished(outcome.run, &rows);
             Ok(())
@@ -92,26 +98,26 @@ impl Study {
     fn each(
         &self,
         runs: &[u32],
-        journal: Option<&Journal>,
+        engine: Engine<'_>,
         mut take: impl FnMut(Outcome) -> Result<(), StudyError>,
     ) -> Result<(), StudyError> {
         let count = u32::try_from(runs.len()).unwrap_or(u32::MAX);
-        let work = |index: u32| self.one(runs[index as usize], journal);
+        let work = |index: u32| self.one(runs[index as usize], engine);
         in_order(count, self.jobs, WAITING, work, |_, outcome| take(outcome?))
     }
 
-    fn one(&self, run: u32, journal: Option<&Journal>) -> Result<Outcome, StudyError> {
-        if let Some(kept) = journal.map(|journal| journal.read(run)).transpose()?.flatten() {
+    fn one(&self, run: u32, engine: Engine<'_>) -> Result<Outcome, StudyError> {
+        if let Some(kept) = engine.journal.map(|journal| journal.read(run)).transpose()?.flatten() {
             return Ok(kept);
         }
-        let outcome = if stop_asked() {
-            None
-        } else {
-            Some(Outcome::of(&self.spec, run))
+        let outcome = match engine.workers {
+            _ if stop_asked() => None,
+            Some(workers) => Some(workers.run(&self.spec, run)?),
+            None => Some(Outcome::of(&self.spec, run)),
         };
         // A run that was broken off is none.
         let outcome = outcome.filter(|_| !stop_asked()).ok_or(StudyError::Stopped)?;
-        if let Some(journal) = journal {
+        if let Some(journal) = engine.journal {
             journal.append(&outcome)?;
         }
         Ok(outcome)

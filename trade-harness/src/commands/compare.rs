@@ -3,12 +3,13 @@
 use std::io::Write;
 use std::path::Path;
 
-use study::{Models, Plan, Study, StudyResult, Summary, rehearse};
+use study::{Engine, Journal, Models, Plan, Study, StudyError, StudyResult, Summary, Workers, rehearse};
 
 use super::files::Report;
 use super::merge::{KEPT, Kept, shard_folder};
 use super::progress::{run_watched, shard_watched};
 use super::shared::{Verdict, closing, end_when_asked, models, note, plan_of, say, scratch};
+use super::worker;
 use crate::HarnessError;
 use crate::claims;
 use crate::cli::CompareArgs;
@@ -41,20 +42,26 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
     }
     let folder = StudyFolder::claim(&place, &identity, claim)?;
     let studies = cast(&plan, &models, folder.output().path())?;
+    let foreign = plan.truth.is_some() || !plan.foreign.is_empty();
+    let isolate = args.isolation.isolate || (foreign && !args.isolation.no_isolate);
+    let mut workers = Vec::new();
     for study in &studies {
         let world = &study.spec.world;
         for text in &world.notes {
             note(&format!("note: {}: {text}", world.name));
         }
-        for open in rehearse(&study.spec)? {
-            note(&format!("note: nothing feeds {open}; it keeps its start value"));
+        let own = isolate.then(|| worker::workers(study, &plan, &models, &folder, args.isolation.limits()));
+        workers.extend(own.transpose()?);
+        for text in rehearsed(study, workers.last())? {
+            note(&format!("note: {text}"));
         }
     }
+    let quiet = args.study.build.quiet;
     if let Some(shard) = args.folder.shard {
         let kept = Kept::new(&plan, &models)?;
         folder.keep(KEPT, &json_bytes(&kept)?)?;
-        for study in &studies {
-            shard_watched(study, shard, &folder.journal(study)?, args.study.build.quiet)?;
+        for (index, study) in studies.iter().enumerate() {
+            shard_watched(study, shard, engine(&folder.journal(study)?, workers.get(index)), quiet)?;
         }
         let text = format!(
             "part {shard} is done: {}; 'trade-harness merge {}' when all are",
@@ -66,22 +73,34 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
     }
 
     let mut results = Vec::new();
-    for study in &studies {
+    for (index, study) in studies.iter().enumerate() {
         results.push(run_watched(
             study,
-            Some(&folder.journal(study)?),
-            args.study.build.quiet,
+            engine(&folder.journal(study)?, workers.get(index)),
+            quiet,
         )?);
     }
-    // What a source claims is claimed of its own world, not of a changed one.
-    let as_published =
-        args.study.assignments.is_empty() && args.study.variations.is_empty() && args.study.truth.is_none();
-    let missed = finish(folder, &studies, &results, &models, &plan, as_published, out)?;
+    let missed = finish(folder, &studies, &results, &workers, &models, &plan, out)?;
     Ok(if missed && args.check {
         Verdict::BoundsMissed
     } else {
         Verdict::Done
     })
+}
+
+fn engine<'a>(journal: &'a Journal, workers: Option<&'a Workers>) -> Engine<'a> {
+    Engine {
+        journal: Some(journal),
+        workers,
+    }
+}
+
+/// Lets every part of a study start once, so that a bad setting shows before the first run; returns what a user should know.
+fn rehearsed(study: &Study, workers: Option<&Workers>) -> Result<Vec<String>, StudyError> {
+    match workers {
+        Some(workers) => workers.rehearse(&study.spec),
+        None => rehearse(&study.spec),
+    }
 }
 
 /// The studies of a plan.
@@ -98,15 +117,17 @@ pub(super) fn finish(
     folder: StudyFolder,
     studies: &[Study],
     results: &[StudyResult],
+    workers: &[Workers],
     models: &Models,
     plan: &Plan,
-    as_published: bool,
     out: &mut dyn Write,
 ) -> Result<bool, HarnessError> {
-    let report = Report::new(studies, results);
+    let report = Report::new(studies, results, workers);
     let output = folder.output().clone();
     let files = report.write(&output, models, plan, 0, Vec::new(), Some(folder.identity()))?;
     folder.complete()?;
+    // What a source claims is claimed of its own world, not of a changed one.
+    let as_published = plan.assignments.is_empty() && plan.variations.is_empty() && plan.truth.is_none();
     print(&report, as_published, &output, &files, out)
 }
 

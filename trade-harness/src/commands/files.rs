@@ -4,7 +4,7 @@ use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use study::{Models, Plan, Study, StudyResult, Summary};
+use study::{Models, Plan, Study, StudyResult, Summary, Workers};
 
 use crate::HarnessError;
 use crate::output::OutputFolder;
@@ -23,11 +23,12 @@ pub(super) struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    pub(super) fn new(studies: &'a [Study], results: &'a [StudyResult]) -> Self {
+    /// * `workers`: of each study, where its FMUs are not called in this process.
+    pub(super) fn new(studies: &'a [Study], results: &'a [StudyResult], workers: &[Workers]) -> Self {
         let mut rows = Vec::new();
         let mut timings = Vec::new();
-        for (study, result) in studies.iter().zip(results) {
-            let (summary, cost) = measured(study, result);
+        for (index, (study, result)) in studies.iter().zip(results).enumerate() {
+            let (summary, cost) = measured(study, result, workers.get(index));
             rows.extend(summary);
             timings.extend(cost);
         }

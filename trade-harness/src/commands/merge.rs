@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use study::{Journal, Models, NAV, OwnFmus, Plan, Shard, Study, TRUTH};
+use study::{Engine, Journal, Models, NAV, OwnFmus, Plan, Shard, Study, TRUTH};
 
 use super::compare::{cast, finish};
 use super::progress::run_watched;
@@ -54,6 +54,15 @@ impl Kept {
             nav: own(NAV)?,
         })
     }
+
+    /// The plan, and our FMUs.
+    pub(super) fn parts(self) -> (Plan, OwnFmus) {
+        let own = OwnFmus {
+            truth: self.truth,
+            nav: self.nav,
+        };
+        (self.plan, own)
+    }
 }
 
 /// The folder of one part.
@@ -78,13 +87,10 @@ pub(super) fn merge(args: &MergeArgs, out: &mut dyn Write) -> Result<Verdict, Ha
         source,
     })?;
     let kept: Kept = serde_json::from_slice(&text)?;
+    let (plan, own) = kept.parts();
     let plan = Plan {
         jobs: args.jobs,
-        ..kept.plan
-    };
-    let own = OwnFmus {
-        truth: kept.truth,
-        nav: kept.nav,
+        ..plan
     };
     let models = Models::of(&plan, &own)?;
     let scratch = scratch()?;
@@ -104,12 +110,17 @@ pub(super) fn merge(args: &MergeArgs, out: &mut dyn Write) -> Result<Verdict, Ha
             )));
         }
     }
-    let results: Result<Vec<_>, _> = studies
-        .iter()
-        .map(|study| run_watched(study, Some(&folder.journal(study)?), args.quiet))
-        .collect();
-    let as_published = plan.assignments.is_empty() && plan.variations.is_empty() && plan.truth.is_none();
-    finish(folder, &studies, &results?, &models, &plan, as_published, out)?;
+    // Nothing is run: the journals hold every run.
+    let results = studies.iter().map(|study| {
+        let journal = folder.journal(study)?;
+        let engine = Engine {
+            journal: Some(&journal),
+            workers: None,
+        };
+        run_watched(study, engine, args.quiet)
+    });
+    let results: Result<Vec<_>, HarnessError> = results.collect();
+    finish(folder, &studies, &results?, &[], &models, &plan, out)?;
     let shards = args.dir.join(SHARDS);
     fs::remove_dir_all(&shards).map_err(|source| HarnessError::Write { path: shards, source })?;
     Ok(Verdict::Done)

@@ -13,6 +13,7 @@ mod replay;
 mod reproduce;
 mod shared;
 mod tune;
+mod worker;
 
 use std::io;
 use std::process::ExitCode;
@@ -38,6 +39,7 @@ pub fn execute(cli: Cli) -> ExitCode {
         Command::Inspect(args) => inspect::inspect(&args, &mut out),
         Command::Mission(command) => mission::mission(&command, &mut out),
         Command::Columns => columns::columns(&mut out),
+        Command::Worker(args) => worker::worker(&args),
     };
     match result {
         Ok(Verdict::Done) => ExitCode::SUCCESS,

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use study::{Journal, RunRow, Shard, Study, StudyError, StudyResult};
+use study::{Engine, RunRow, Shard, Study, StudyError, StudyResult};
 
 use super::shared::note;
 use crate::HarnessError;
@@ -76,14 +76,14 @@ impl Progress {
 }
 
 /// Runs a study under a line of its own.
-pub(super) fn run_watched(study: &Study, journal: Option<&Journal>, quiet: bool) -> Result<StudyResult, HarnessError> {
-    watched(study, study.runs, quiet, |finished| study.run(journal, finished))
+pub(super) fn run_watched(study: &Study, engine: Engine<'_>, quiet: bool) -> Result<StudyResult, HarnessError> {
+    watched(study, study.runs, quiet, |finished| study.run(engine, finished))
 }
 
 /// Makes a part of a study's runs, likewise.
-pub(super) fn shard_watched(study: &Study, shard: Shard, journal: &Journal, quiet: bool) -> Result<(), HarnessError> {
+pub(super) fn shard_watched(study: &Study, shard: Shard, engine: Engine<'_>, quiet: bool) -> Result<(), HarnessError> {
     let runs = u32::try_from(shard.runs(study.runs).len()).unwrap_or(u32::MAX);
-    watched(study, runs, quiet, |finished| study.run_shard(shard, journal, finished))
+    watched(study, runs, quiet, |finished| study.run_shard(shard, engine, finished))
 }
 
 fn watched<T>(

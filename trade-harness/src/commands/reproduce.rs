@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use study::{Models, Plan, Study, StudyError, StudyResult, rehearse, run_once};
+use study::{Engine, Models, Plan, Study, StudyError, StudyResult, rehearse, run_once};
 
 use super::progress::run_watched;
 use super::shared::{Verdict, closing, models, note, say};
@@ -129,7 +129,7 @@ impl<'a> Bench<'a> {
 impl Laboratory for Bench<'_> {
     fn study(&mut self, request: &Request) -> Result<(Plan, Study, StudyResult), HarnessError> {
         let study = self.set_up(request)?;
-        let result = run_watched(&study, None, self.args.build.quiet)?;
+        let result = run_watched(&study, Engine::default(), self.args.build.quiet)?;
         Ok((self.plan(request), study, result))
     }
 

@@ -86,8 +86,8 @@ impl Contest {
             ..plan.clone()
         };
         let spec = models.spec(&plan, &world)?;
-        for open in rehearse(&spec)? {
-            note(&format!("note: nothing feeds {open}; it keeps its start value"));
+        for text in rehearse(&spec)? {
+            note(&format!("note: {text}"));
         }
         let contenders = contenders(models, &choices, &spec, ranges, &plan.assignments)?;
         Ok(Self {

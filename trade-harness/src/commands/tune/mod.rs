@@ -54,7 +54,7 @@ pub(super) fn tune(args: &TuneArgs, out: &mut dyn Write) -> Result<Verdict, Harn
         judge.filters = Some(contest.judged());
         let study = models.study(&judge, &contest.world)?;
         let beside = study.spec.filters.len() as u64;
-        let result = study.run(None, |run, rows| {
+        let result = study.run(study::Engine::default(), |run, rows| {
             progress.failures(&study, run, rows);
             progress.advance(beside);
         })?;
