@@ -123,8 +123,9 @@ impl Workers {
                 }
                 Ok(_) => return Err(out_of_turn()),
                 Err(Lost::Died { participant, message }) => {
-                    // The places of a request are those of its own filters.
-                    let blamed = participant.and_then(|p| Some(filters[p.checked_sub(1)?]));
+                    let blamed = participant
+                        .and_then(|p| p.checked_sub(1))
+                        .filter(|place| filters.contains(place));
                     if let ([filter], _) | (_, Some(filter)) = (filters.as_slice(), blamed.as_ref()) {
                         self.suspects().insert(*filter);
                         parts[*filter] = Some(failed(spec, run, message));

@@ -1,0 +1,169 @@
+//! Filters that crash, loop, exit, eat memory and talk nonsense: each costs its own runs, is named with what it did, and takes
+//! nothing else along.
+
+#![cfg(unix)]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
+
+mod common;
+
+use common::{harness, harness_ok, read_csv, results, skipped};
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const RUNS: usize = 3;
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// Packs the filter; `None` without a C compiler.
+fn nasty(folder: &Path) -> Option<PathBuf> {
+    let (source, library) = (folder.join("nasty.c"), folder.join("nasty.so"));
+    std::fs::write(&source, include_str!("nasty/nasty.c")).unwrap();
+    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
+    let ran = Command::new(compiler)
+        .args([
+            "-shared",
+            "-fPIC",
+            "-Wall",
+            "-Werror",
+            "-o",
+            text(&library),
+            text(&source),
+            "-lm",
+        ])
+        .output();
+    let Ok(done) = ran else {
+        skipped("isolation", "gcc");
+        return None;
+    };
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let scalar = |name: &str, reference: u32, causality: &str, kind: &str| {
+        let variability = if causality == "parameter" { "fixed" } else { "discrete" };
+        let start = if causality == "output" { "" } else { " start=\"0\"" };
+        format!(
+            "<ScalarVariable name=\"{name}\" valueReference=\"{reference}\" causality=\"{causality}\" \
+             variability=\"{variability}\"><{kind}{start}/></ScalarVariable>\n"
+        )
+    };
+    let mut variables = scalar("deed", 0, "parameter", "Integer")
+        + &scalar("sample_count", 1, "input", "Integer")
+        + &scalar("est.count", 1, "output", "Integer")
+        + &scalar("status", 2, "output", "Integer")
+        + &scalar("sample_time", 0, "input", "Real")
+        + &scalar("est.time", 0, "output", "Real");
+    for (first, name) in [(1, "est.r_tc_n"), (4, "est.v_tc_n")] {
+        for element in 0..3 {
+            variables += &scalar(&format!("{name}[{}]", element + 1), first + element, "output", "Real");
+        }
+    }
+    let description = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription fmiVersion=\"2.0\" modelName=\"nasty\" \
+         guid=\"nasty\"><CoSimulation modelIdentifier=\"nasty\" canHandleVariableCommunicationStepSize=\"true\"/>\
+         <ModelVariables>{variables}</ModelVariables><ModelStructure/></fmiModelDescription>"
+    );
+    let path = folder.join("nasty.fmu");
+    let mut zip = zip::ZipWriter::new(File::create(&path).unwrap());
+    let library = std::fs::read(library).unwrap();
+    let binary = format!("binaries/{}/nasty.so", fmi2_import::PLATFORM);
+    for (name, bytes) in [
+        ("modelDescription.xml", description.as_bytes()),
+        (binary.as_str(), &library),
+    ] {
+        zip.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
+        zip.write_all(bytes).unwrap();
+    }
+    zip.finish().unwrap();
+    Some(path)
+}
+
+#[test]
+fn whatever_a_filter_does_costs_its_own_runs_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(fmu) = nasty(folder.path()) else { return };
+    let study = ["compare", "--filters", "snc,fixed_q", "--runs", &RUNS.to_string()].map(str::to_owned);
+    let study: Vec<&str> = study.iter().map(String::as_str).collect();
+    let alone = folder.path().join("alone");
+    harness_ok(&[&study[..], &["--out", text(&alone)]].concat());
+    let ours = |out: &Path| -> Vec<_> {
+        let rows = read_csv(&out.join("runs.csv"));
+        rows.into_iter()
+            .filter(|row| row["filter"] != "nasty")
+            .map(|row| row.into_iter().collect::<std::collections::BTreeMap<_, _>>())
+            .collect()
+    };
+    let expected = ours(&alone);
+    assert_eq!(expected.len(), 2 * RUNS);
+    // Deed, and what the message of each run must name; none for one that does no harm.
+    let deeds: [(i32, &[&str]); 10] = [
+        (1, &["signal 11", "segmentation fault", "about to touch"]),
+        (2, &["signal 6", "abort"]),
+        (3, &["exit code 0"]),
+        (4, &["did not come back within 0.5 s"]),
+        (5, &["did not come back within 0.5 s"]),
+        (6, &["signal 6", "memory limit 512 MiB"]),
+        (7, &["NaN"]),
+        (8, &[]),
+        (9, &[]),
+        (10, &["signal 11"]),
+    ];
+    for (deed, says) in deeds {
+        let out = folder.path().join(format!("deed{deed}"));
+        let (filter, set) = (format!("nasty={}", text(&fmu)), format!("nasty.deed={deed}"));
+        let more = [
+            "--nav",
+            &filter,
+            "--set",
+            &set,
+            "--call-limit",
+            "0.5",
+            "--memory-limit",
+            "512",
+            "--out",
+            text(&out),
+        ];
+        let output = harness(&[&study[..], &more].concat());
+        let (said, told) = (
+            String::from_utf8_lossy(&output.stdout),
+            String::from_utf8_lossy(&output.stderr),
+        );
+        assert!(output.status.success(), "deed {deed}: {told}");
+        assert!(
+            !said.contains("nonsense") && !said.contains("not for the table"),
+            "{said}"
+        );
+        assert_eq!(ours(&out), expected, "deed {deed} has touched the others");
+        let failures = read_csv(&out.join("failures.csv"));
+        assert_eq!(
+            failures.len(),
+            if says.is_empty() { 0 } else { RUNS },
+            "deed {deed}: {failures:?}"
+        );
+        for failure in &failures {
+            assert_eq!(failure["filter"], "nasty");
+            let message = &failure["message"];
+            assert!(says.iter().all(|word| message.contains(word)), "deed {deed}: {message}");
+        }
+        assert!(!out.join(".unfinished").exists());
+    }
+}
+
+#[test]
+fn isolated_or_not_our_filters_give_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = [
+        "compare",
+        "--scenario",
+        "leo_venting,formation",
+        "--filters",
+        "snc,fixed_q",
+        "--runs",
+        "4",
+    ];
+    let (here, there) = (folder.path().join("here"), folder.path().join("there"));
+    harness_ok(&[&study[..], &["--out", text(&here)]].concat());
+    harness_ok(&[&study[..], &["--isolate", "--out", text(&there)]].concat());
+    assert!(results(&here) == results(&there), "bytes differ");
+}
