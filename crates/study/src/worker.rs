@@ -31,11 +31,9 @@ pub(crate) enum Request {
     CallTime { filter: usize },
 }
 
-/// What it answers.
+/// What it answers, but for a run.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Answer {
-    /// The bytes of an [`Outcome`].
-    Run(Vec<u8>),
     /// Inputs that nothing feeds, or why one does not start.
     Rehearsed(Result<Vec<String>, String>),
     /// What a call costs.
@@ -91,13 +89,18 @@ pub fn serve(mut spec: Spec, limits: Limits) -> Result<(), StudyError> {
     thread::spawn(move || watch.guard(limit, &for_guard));
 
     let mut some = HashMap::new();
+    let mut message = Vec::new();
     let mut input = io::stdin().lock();
-    while let Some(request) = receive::<Request>(&mut input).map_err(failed)? {
+    while let Some(Message::Other(request)) = receive::<Request>(&mut input).map_err(failed)? {
         let answer = match request {
             Request::Run { run, filters } => {
                 let spec = some.entry(filters).or_insert_with_key(|filters| subset(&spec, filters));
-                let bytes = Outcome::of(spec, run).to_bytes(Vec::new());
-                Answer::Run(bytes.map_err(|e| failed(io::Error::other(e)))?)
+                message = Outcome::of(spec, run)
+                    .to_bytes(begun(message, RUN))
+                    .map_err(|e| failed(io::Error::other(e)))?;
+                let mut output = answers.lock().unwrap_or_else(PoisonError::into_inner);
+                finish(&mut *output, &mut message).map_err(failed)?;
+                continue;
             }
             Request::Rehearse { filters } => {
                 Answer::Rehearsed(rehearse(&subset(&spec, &filters)).map_err(|error| chain(&error)))
@@ -132,25 +135,56 @@ fn subset(spec: &Spec, filters: &[usize]) -> Spec {
     }
 }
 
-/// Writes a message with its length.
-pub(crate) fn send(output: &mut impl Write, message: &impl Serialize) -> io::Result<()> {
-    let mut bytes = postcard::to_extend(message, vec![0; 4]).map_err(io::Error::other)?;
-    let length = u32::try_from(bytes.len() - 4).map_err(io::Error::other)?;
-    bytes[..4].copy_from_slice(&length.to_le_bytes());
-    output.write_all(&bytes)?;
+/// Kinds of messages: a run, whose bytes are many and stand as they are, and anything else.
+const RUN: u8 = 1;
+const OTHER: u8 = 0;
+
+/// A message as it arrives.
+#[derive(Debug)]
+pub(crate) enum Message<T> {
+    /// The bytes of an [`Outcome`].
+    Run(Vec<u8>),
+    /// Anything else.
+    Other(T),
+}
+
+/// The head of a message in the memory of an earlier one: room for its length, and its kind.
+fn begun(mut memory: Vec<u8>, kind: u8) -> Vec<u8> {
+    memory.clear();
+    memory.extend_from_slice(&[0, 0, 0, 0, kind]);
+    memory
+}
+
+/// Writes a message that is all there but for its length.
+fn finish(output: &mut impl Write, message: &mut [u8]) -> io::Result<()> {
+    let length = u32::try_from(message.len() - 4).map_err(io::Error::other)?;
+    message[..4].copy_from_slice(&length.to_le_bytes());
+    output.write_all(message)?;
     output.flush()
 }
 
+/// Writes a message that is no run.
+pub(crate) fn send(output: &mut impl Write, message: &impl Serialize) -> io::Result<()> {
+    let mut bytes = postcard::to_extend(message, begun(Vec::new(), OTHER)).map_err(io::Error::other)?;
+    finish(output, &mut bytes)
+}
+
 /// Reads a message; `None` where the other side has closed.
-pub(crate) fn receive<T: for<'de> Deserialize<'de>>(input: &mut impl Read) -> io::Result<Option<T>> {
+pub(crate) fn receive<T: for<'de> Deserialize<'de>>(input: &mut impl Read) -> io::Result<Option<Message<T>>> {
     let mut length = [0; 4];
     match input.read_exact(&mut length) {
         Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(None),
         other => other?,
     }
-    let mut bytes = vec![0; u32::from_le_bytes(length) as usize];
+    let mut kind = [0];
+    input.read_exact(&mut kind)?;
+    let mut bytes = vec![0; (u32::from_le_bytes(length) as usize).saturating_sub(1)];
     input.read_exact(&mut bytes)?;
-    postcard::from_bytes(&bytes).map(Some).map_err(io::Error::other)
+    if kind == [RUN] {
+        return Ok(Some(Message::Run(bytes)));
+    }
+    let other = postcard::from_bytes(&bytes).map_err(io::Error::other)?;
+    Ok(Some(Message::Other(other)))
 }
 
 /// Which call a worker is in.

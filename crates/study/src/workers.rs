@@ -14,7 +14,7 @@ use crate::outcome::{Outcome, Part};
 use crate::run::{Ending, Failure, SlaveTime};
 use crate::spec::Spec;
 use crate::stop::stop_asked;
-use crate::worker::{Answer, Limits, Request, receive, send};
+use crate::worker::{Answer, Limits, Message, Request, receive, send};
 
 /// How often a waiting parent looks whether it shall stop.
 const LOOK: Duration = Duration::from_millis(50);
@@ -34,7 +34,7 @@ pub struct Workers {
 struct Worker {
     child: Child,
     requests: Option<ChildStdin>,
-    answers: Receiver<io::Result<Option<Answer>>>,
+    answers: Receiver<io::Result<Option<Message<Answer>>>>,
     printed: Arc<Mutex<Vec<u8>>>,
 }
 
@@ -72,8 +72,8 @@ impl Workers {
         let mut told = Vec::new();
         for filter in 0..spec.filters.len() {
             match self.ask(&Request::Rehearse { filters: vec![filter] }) {
-                Ok(Answer::Rehearsed(Ok(open))) => told.extend(open),
-                Ok(Answer::Rehearsed(Err(why))) => return Err(StudyError::Rehearsal { why }),
+                Ok(Message::Other(Answer::Rehearsed(Ok(open)))) => told.extend(open),
+                Ok(Message::Other(Answer::Rehearsed(Err(why)))) => return Err(StudyError::Rehearsal { why }),
                 Ok(_) => return Err(out_of_turn()),
                 Err(Lost::Died { message, .. }) => told.push(format!("{}: {message}", spec.filters[filter].label)),
                 Err(lost) => return Err(lost.into()),
@@ -85,7 +85,7 @@ impl Workers {
     /// As [`crate::call_time`]; nothing for a filter that kills its worker.
     pub fn call_time(&self, filter: usize) -> Duration {
         match self.ask(&Request::CallTime { filter }) {
-            Ok(Answer::CallTime(time)) => time,
+            Ok(Message::Other(Answer::CallTime(time))) => time,
             _ => Duration::ZERO,
         }
     }
@@ -112,7 +112,7 @@ impl Workers {
                 filters: filters.clone(),
             };
             match self.ask(&request) {
-                Ok(Answer::Run(bytes)) => {
+                Ok(Message::Run(bytes)) => {
                     let outcome = Outcome::from_bytes(&bytes).map_err(|e| worker_error(io::Error::other(e)))?;
                     if outcome.steps >= whole.steps {
                         (whole.steps, whole.truth_time) = (outcome.steps, outcome.truth_time);
@@ -143,7 +143,7 @@ impl Workers {
     }
 
     /// Asks a worker; one that has died is no longer there.
-    fn ask(&self, request: &Request) -> Result<Answer, Lost> {
+    fn ask(&self, request: &Request) -> Result<Message<Answer>, Lost> {
         let idle = self.idle().pop();
         let mut worker = match idle {
             Some(worker) => worker,
@@ -211,13 +211,13 @@ impl Worker {
         })
     }
 
-    fn ask(&mut self, request: &Request, limits: Limits) -> Result<Answer, Lost> {
+    fn ask(&mut self, request: &Request, limits: Limits) -> Result<Message<Answer>, Lost> {
         // A worker that is gone already shows when it is listened to.
         let _ = self.requests.as_mut().map(|requests| send(requests, request));
         let begun = Instant::now();
         loop {
             match self.answers.recv_timeout(LOOK) {
-                Ok(Ok(Some(Answer::Stuck { participant }))) => {
+                Ok(Ok(Some(Message::Other(Answer::Stuck { participant })))) => {
                     return Err(Lost::Died {
                         participant: Some(participant),
                         message: format!("a call did not come back within {} s{}", limits.call_s, self.said()),
