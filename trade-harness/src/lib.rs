@@ -21,6 +21,7 @@ pub mod pack;
 pub mod report;
 pub mod reproduce;
 pub mod store;
+pub mod temporary;
 pub mod tuning;
 
 pub use error::HarnessError;

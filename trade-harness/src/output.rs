@@ -35,6 +35,11 @@ impl OutputFolder {
         Ok(Self { path: path.to_owned() })
     }
 
+    /// Removes what a process that was killed had begun to write, here and in the folders below.
+    pub fn remove_torn(&self) {
+        remove_torn(&self.path);
+    }
+
     /// The folder.
     pub fn path(&self) -> &Path {
         &self.path
@@ -100,6 +105,22 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), HarnessError> {
             source,
         }
     })
+}
+
+/// Removes files that [`write_whole`] has left unmoved; only whoever alone works in a folder may.
+fn remove_torn(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let (path, name) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
+        let number = name
+            .strip_prefix('.')
+            .and_then(|n| n.strip_suffix(".tmp")?.rsplit_once('.'));
+        if path.is_dir() {
+            remove_torn(&path);
+        } else if number.is_some_and(|(_, number)| number.parse::<u32>().is_ok()) {
+            // Best effort: it is in nobody's way.
+            let _ = fs::remove_file(&path);
+        }
+    }
 }
 
 /// A name beside the file that no other process uses.

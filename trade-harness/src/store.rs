@@ -1,7 +1,7 @@
 //! The folder of a study: it belongs to one study, one process works in it, and what is finished in it stays finished.
 //!
-//! While a study is under way its folder holds `.unfinished/`: a lock, the identity of the study, the journals of its runs and
-//! whatever is temporary. A study that is complete has `manifest.json`, which holds the identity, and no `.unfinished/`.
+//! While a study is under way its folder holds `.unfinished/`: a lock, the identity of the study and the journals of its runs.
+//! A study that is complete has `manifest.json`, which holds the identity, and no `.unfinished/`.
 
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
@@ -77,17 +77,7 @@ impl StudyFolder {
             _lock: held,
         };
         this.check(claim)?;
-        let scratch = this.unfinished.join("tmp");
-        let emptied = if scratch.exists() {
-            fs::remove_dir_all(&scratch)
-        } else {
-            Ok(())
-        };
-        emptied
-            .and_then(|()| fs::create_dir_all(&scratch))
-            .map_err(failed(&scratch))?;
-        // FMUs are unpacked there, so that nothing is left behind anywhere else, whatever happens.
-        let _ = tempfile::env::override_temp_dir(&scratch);
+        this.folder.remove_torn();
         write_whole(&this.unfinished.join("identity"), identity.as_bytes())?;
         Ok(this)
     }

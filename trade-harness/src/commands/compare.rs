@@ -1,21 +1,17 @@
 //! `compare`: the Monte Carlo study.
 
 use std::io::Write;
-use std::path::Path;
 
-use study::{Engine, Journal, Models, Plan, Study, StudyError, StudyResult, Summary, Workers, rehearse};
+use study::{Engine, Journal, Plan, Workers, rehearse};
 
-use super::files::Report;
-use super::merge::{KEPT, Kept, shard_folder};
+use super::finished::finish;
+use super::kept::{KEPT, Kept, shard_folder};
 use super::progress::{run_watched, shard_watched};
-use super::shared::{Verdict, closing, end_when_asked, models, note, plan_of, say, scratch};
+use super::shared::{Verdict, cast, end_when_asked, models, note, plan_of, say, scratch};
 use super::worker;
 use crate::HarnessError;
-use crate::claims;
 use crate::cli::CompareArgs;
 use crate::format::json_bytes;
-use crate::output::OutputFolder;
-use crate::report::table;
 use crate::store::{Claim, StudyFolder, identity};
 
 pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
@@ -25,8 +21,29 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
         ..plan_of(&args.study, &args.worlds, &args.work)?
     };
     let models = models(&plan, &args.study.build)?;
+    let foreign = plan.truth.is_some() || !plan.foreign.is_empty();
+    let isolate = args.isolation.isolate || (foreign && !args.isolation.no_isolate);
     let scratch = scratch()?;
-    let identity = identity(&cast(&plan, &models, scratch.path())?, &models)?;
+    let trial = cast(&plan, &models, scratch.path())?;
+    let mut workers = Vec::new();
+    for study in &trial {
+        let world = &study.spec.world;
+        for text in &world.notes {
+            note(&format!("note: {}: {text}", world.name));
+        }
+        // A bad setting shows before the folder is touched; somebody's FMU is called by a worker alone.
+        let told = if isolate {
+            let own = worker::workers(study, &plan, &models, scratch.path(), args.isolation.limits())?;
+            let told = own.rehearse(&study.spec)?;
+            workers.push(own);
+            told
+        } else {
+            rehearse(&study.spec)?
+        };
+        told.iter().for_each(|text| note(&format!("note: {text}")));
+    }
+    let identity = identity(&trial, &models)?;
+    drop(trial);
     let claim = match (args.folder.resume, args.folder.force) {
         (true, _) => Claim::Resume,
         (_, true) => Claim::Force,
@@ -42,20 +59,6 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
     }
     let folder = StudyFolder::claim(&place, &identity, claim)?;
     let studies = cast(&plan, &models, folder.output().path())?;
-    let foreign = plan.truth.is_some() || !plan.foreign.is_empty();
-    let isolate = args.isolation.isolate || (foreign && !args.isolation.no_isolate);
-    let mut workers = Vec::new();
-    for study in &studies {
-        let world = &study.spec.world;
-        for text in &world.notes {
-            note(&format!("note: {}: {text}", world.name));
-        }
-        let own = isolate.then(|| worker::workers(study, &plan, &models, &folder, args.isolation.limits()));
-        workers.extend(own.transpose()?);
-        for text in rehearsed(study, workers.last())? {
-            note(&format!("note: {text}"));
-        }
-    }
     let quiet = args.study.build.quiet;
     if let Some(shard) = args.folder.shard {
         let kept = Kept::new(&plan, &models)?;
@@ -93,91 +96,4 @@ fn engine<'a>(journal: &'a Journal, workers: Option<&'a Workers>) -> Engine<'a> 
         journal: Some(journal),
         workers,
     }
-}
-
-/// Lets every part of a study start once, so that a bad setting shows before the first run; returns what a user should know.
-fn rehearsed(study: &Study, workers: Option<&Workers>) -> Result<Vec<String>, StudyError> {
-    match workers {
-        Some(workers) => workers.rehearse(&study.spec),
-        None => rehearse(&study.spec),
-    }
-}
-
-/// The studies of a plan.
-///
-/// * `folder`: where the files of missions go that the plan changes.
-pub(super) fn cast(plan: &Plan, models: &Models, folder: &Path) -> Result<Vec<Study>, HarnessError> {
-    let worlds = plan.worlds(folder)?;
-    let studies = worlds.iter().map(|world| Ok(models.study(plan, world)?));
-    studies.collect()
-}
-
-/// Writes and prints what finished studies found; returns whether a bound was missed.
-pub(super) fn finish(
-    folder: StudyFolder,
-    studies: &[Study],
-    results: &[StudyResult],
-    workers: &[Workers],
-    models: &Models,
-    plan: &Plan,
-    out: &mut dyn Write,
-) -> Result<bool, HarnessError> {
-    let report = Report::new(studies, results, workers);
-    let output = folder.output().clone();
-    let files = report.write(&output, models, plan, 0, Vec::new(), Some(folder.identity()))?;
-    folder.complete()?;
-    // What a source claims is claimed of its own world, not of a changed one.
-    let as_published = plan.assignments.is_empty() && plan.variations.is_empty() && plan.truth.is_none();
-    print(&report, as_published, &output, &files, out)
-}
-
-fn print(
-    report: &Report<'_>,
-    as_published: bool,
-    folder: &OutputFolder,
-    files: &[String],
-    out: &mut dyn Write,
-) -> Result<bool, HarnessError> {
-    let mut missed = false;
-    for (study, result) in report.studies.iter().zip(report.results) {
-        let world = &study.spec.world;
-        let rows: Vec<Summary> = report
-            .rows
-            .iter()
-            .filter(|r| r.scenario == world.name)
-            .cloned()
-            .collect();
-        let heading = format!(
-            "{}, case {}: {} runs from seed {}, {} to {} s, {:.1} s on {} threads",
-            world.name,
-            study.case,
-            study.runs,
-            study.spec.seed,
-            world.scored_from_s,
-            world.duration_s,
-            result.wall.as_secs_f64(),
-            study.jobs
-        );
-        say(
-            out,
-            &format!(
-                "{heading}\n{}\n{}",
-                table::render(&rows, &report.timings),
-                table::LEGEND
-            ),
-        )?;
-        let verdicts = if as_published {
-            claims::verdicts(&world.name, &rows)
-        } else {
-            Vec::new()
-        };
-        say(out, &format!("\n{}", table::render_axes(&rows, world.axes.names())))?;
-        if !verdicts.is_empty() {
-            say(out, &format!("\n{}\n{}", world.reference, claims::render(&verdicts)))?;
-        }
-        missed |= verdicts.iter().any(|v| !v.holds());
-        say(out, "")?;
-    }
-    closing(folder, files, out)?;
-    Ok(missed)
 }

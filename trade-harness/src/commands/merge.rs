@@ -4,71 +4,15 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
-use study::{Engine, Journal, Models, NAV, OwnFmus, Plan, Shard, Study, TRUTH};
+use study::{Engine, Journal, Models, Plan, Study};
 
-use super::compare::{cast, finish};
+use super::finished::finish;
+use super::kept::{KEPT, Kept, SHARDS};
 use super::progress::run_watched;
-use super::shared::{Verdict, scratch};
+use super::shared::{Verdict, cast, scratch};
 use crate::HarnessError;
 use crate::cli::MergeArgs;
 use crate::store::{Claim, StudyFolder, identity};
-
-/// What a part keeps beside its journals: how to make the study again.
-pub(super) const KEPT: &str = "plan.json";
-
-/// Where the parts are, below the folder of the study.
-const SHARDS: &str = "shards";
-
-/// A plan with the FMUs that it was made with.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Kept {
-    plan: Plan,
-    truth: Option<PathBuf>,
-    nav: Option<PathBuf>,
-}
-
-impl Kept {
-    /// With whole paths, so that it may be read from anywhere.
-    pub(super) fn new(plan: &Plan, models: &Models) -> Result<Self, HarnessError> {
-        let whole = |path: &Path| {
-            std::path::absolute(path).map_err(|source| HarnessError::Read {
-                path: path.to_owned(),
-                source,
-            })
-        };
-        let own = |name: &str| {
-            let model = models.all().find(|model| model.name == name);
-            model.map(|model| whole(model.fmu.path())).transpose()
-        };
-        let mut plan = plan.clone();
-        for path in plan.missions.iter_mut().chain(&mut plan.truth) {
-            *path = whole(path)?;
-        }
-        for foreign in &mut plan.foreign {
-            foreign.path = whole(&foreign.path)?;
-        }
-        Ok(Self {
-            plan,
-            truth: own(TRUTH)?,
-            nav: own(NAV)?,
-        })
-    }
-
-    /// The plan, and our FMUs.
-    pub(super) fn parts(self) -> (Plan, OwnFmus) {
-        let own = OwnFmus {
-            truth: self.truth,
-            nav: self.nav,
-        };
-        (self.plan, own)
-    }
-}
-
-/// The folder of one part.
-pub(super) fn shard_folder(out: &Path, shard: Shard) -> PathBuf {
-    out.join(SHARDS).join(shard.to_string().replace('/', "-of-"))
-}
 
 pub(super) fn merge(args: &MergeArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
     let wrong = |problem: String| HarnessError::Shards {

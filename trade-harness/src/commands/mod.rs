@@ -3,7 +3,9 @@
 mod columns;
 mod compare;
 mod files;
+mod finished;
 mod inspect;
+mod kept;
 mod list;
 mod merge;
 mod mission;
@@ -22,12 +24,19 @@ use study::{StudyError, chain};
 
 use crate::HarnessError;
 use crate::cli::{Cli, Command};
+use crate::temporary::Temporary;
 use shared::{INTERRUPTED, Verdict, note};
 
 /// Runs a command: exit code 0 when done, 1 when bounds were missed, 2 when it could not do its work, 130 when it was asked to
 /// stop.
 pub fn execute(cli: Cli) -> ExitCode {
     let mut out = io::stdout().lock();
+    // A worker's is its parent's.
+    let _temporary = if matches!(cli.command, Command::Worker(_)) {
+        None
+    } else {
+        Temporary::begin()
+    };
     let result = match cli.command {
         Command::List(args) => list::list(&args, &mut out),
         Command::Pack(args) => pack::pack(&args, &mut out),

@@ -1,9 +1,9 @@
 //! What several commands need.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use study::{Models, NAV, OwnFmus, Plan, TRUTH, stop, stop_asked};
+use study::{Models, NAV, OwnFmus, Plan, Study, TRUTH, stop, stop_asked};
 
 use crate::HarnessError;
 use crate::cli::{BuildArgs, StudyArgs, WorkArgs, WorldArgs};
@@ -79,6 +79,15 @@ pub(super) fn end_when_asked() -> Result<(), HarnessError> {
         Ok(()) | Err(ctrlc::Error::MultipleHandlers) => Ok(()),
         Err(source) => Err(HarnessError::Signals { source }),
     }
+}
+
+/// The studies of a plan.
+///
+/// * `folder`: where the files of missions go that the plan changes.
+pub(super) fn cast(plan: &Plan, models: &Models, folder: &Path) -> Result<Vec<Study>, HarnessError> {
+    let worlds = plan.worlds(folder)?;
+    let studies = worlds.iter().map(|world| Ok(models.study(plan, world)?));
+    studies.collect()
 }
 
 /// A folder for files that no one keeps.

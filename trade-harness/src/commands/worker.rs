@@ -7,12 +7,12 @@ use std::process::Command;
 use serde::{Deserialize, Serialize};
 use study::{Limits, Models, Plan, Study, StudyError, Workers, serve};
 
-use super::merge::Kept;
+use super::kept::Kept;
 use super::shared::Verdict;
 use crate::HarnessError;
 use crate::cli::WorkerArgs;
 use crate::format::json_bytes;
-use crate::store::StudyFolder;
+use crate::output::write_whole;
 
 /// What a worker is told before its first run.
 #[derive(Serialize, Deserialize)]
@@ -21,7 +21,9 @@ struct Job {
     limits: Limits,
 }
 
-/// Workers for one study of a folder.
+/// Workers for one study.
+///
+/// * `folder`: takes a file that every worker reads, as long as there are any.
 ///
 /// # Errors
 /// When the folder takes no file, or this program cannot find itself.
@@ -29,7 +31,7 @@ pub(super) fn workers(
     study: &Study,
     plan: &Plan,
     models: &Models,
-    folder: &StudyFolder,
+    folder: &Path,
     limits: Limits,
 ) -> Result<Workers, HarnessError> {
     let job = Job {
@@ -38,13 +40,13 @@ pub(super) fn workers(
         limits,
     };
     let name = format!("{}_{}.job", study.spec.world.name, study.case);
-    let path = folder.keep(&name, &json_bytes(&job)?)?;
+    let path = folder.join(name);
+    write_whole(&path, &json_bytes(&job)?)?;
     let own = std::env::current_exe().map_err(|source| HarnessError::Read {
         path: "the path of this program".into(),
         source,
     })?;
-    let scratch = std::env::temp_dir();
-    let scratch = tempfile::env::temp_dir().canonicalize().unwrap_or(scratch);
+    let scratch = tempfile::env::temp_dir();
     let command = move || {
         let mut command = Command::new(&own);
         command.arg("worker").arg(&path).env("TMPDIR", &scratch);

@@ -1,0 +1,83 @@
+//! What becomes of finished studies: files and tables.
+
+use std::io::Write;
+
+use study::{Models, Plan, Study, StudyResult, Summary, Workers};
+
+use super::files::Report;
+use super::shared::{closing, say};
+use crate::HarnessError;
+use crate::claims;
+use crate::output::OutputFolder;
+use crate::report::table;
+use crate::store::StudyFolder;
+
+/// Writes and prints what finished studies found; returns whether a bound was missed.
+pub(super) fn finish(
+    folder: StudyFolder,
+    studies: &[Study],
+    results: &[StudyResult],
+    workers: &[Workers],
+    models: &Models,
+    plan: &Plan,
+    out: &mut dyn Write,
+) -> Result<bool, HarnessError> {
+    let report = Report::new(studies, results, workers);
+    let output = folder.output().clone();
+    let files = report.write(&output, models, plan, 0, Vec::new(), Some(folder.identity()))?;
+    folder.complete()?;
+    // What a source claims is claimed of its own world, not of a changed one.
+    let as_published = plan.assignments.is_empty() && plan.variations.is_empty() && plan.truth.is_none();
+    print(&report, as_published, &output, &files, out)
+}
+
+fn print(
+    report: &Report<'_>,
+    as_published: bool,
+    folder: &OutputFolder,
+    files: &[String],
+    out: &mut dyn Write,
+) -> Result<bool, HarnessError> {
+    let mut missed = false;
+    for (study, result) in report.studies.iter().zip(report.results) {
+        let world = &study.spec.world;
+        let rows: Vec<Summary> = report
+            .rows
+            .iter()
+            .filter(|r| r.scenario == world.name)
+            .cloned()
+            .collect();
+        let heading = format!(
+            "{}, case {}: {} runs from seed {}, {} to {} s, {:.1} s on {} threads",
+            world.name,
+            study.case,
+            study.runs,
+            study.spec.seed,
+            world.scored_from_s,
+            world.duration_s,
+            result.wall.as_secs_f64(),
+            study.jobs
+        );
+        say(
+            out,
+            &format!(
+                "{heading}\n{}\n{}",
+                table::render(&rows, &report.timings),
+                table::LEGEND
+            ),
+        )?;
+        let verdicts = if as_published {
+            claims::verdicts(&world.name, &rows)
+        } else {
+            Vec::new()
+        };
+        say(out, &format!("\n{}", table::render_axes(&rows, world.axes.names())))?;
+        if !verdicts.is_empty() {
+            say(out, &format!("\n{}\n{}", world.reference, claims::render(&verdicts)))?;
+        }
+        missed |= verdicts.iter().any(|v| !v.holds());
+        say(out, "")?;
+    }
+    closing(folder, files, out)?;
+    Ok(missed)
+}
