@@ -54,7 +54,7 @@ fn nasty(folder: &Path) -> Option<PathBuf> {
         + &scalar("status", 2, "output", "Integer")
         + &scalar("sample_time", 0, "input", "Real")
         + &scalar("est.time", 0, "output", "Real");
-    for (first, name) in [(1, "est.r_tc_n"), (4, "est.v_tc_n")] {
+    for (first, name) in [(1, "est.r_tc_n"), (4, "est.v_tc_n"), (7, "a_cmd_c_n")] {
         for element in 0..3 {
             variables += &scalar(&format!("{name}[{}]", element + 1), first + element, "output", "Real");
         }

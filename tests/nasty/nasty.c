@@ -1,4 +1,5 @@
-/* A filter that misbehaves on purpose, as an FMU. It estimates zeros at every sample; the parameter `deed` says what it does to
+/* A filter that misbehaves on purpose, as an FMU. It estimates zeros at every sample and offers to push the chaser at 1 m/s2, which
+   nobody has asked it to; the parameter `deed` says what it does to
    the process that has loaded it, and in which call. Written without the FMI headers. */
 #include <math.h>
 #include <stdio.h>
@@ -98,7 +99,7 @@ int fmi2DoStep(void *c, double t, double h, int set) {
 int fmi2GetReal(void *c, const unsigned *r, size_t n, double *v) {
   Filter *f = c;
   for (size_t i = 0; i < n; i++)
-    v[i] = r[i] == 0 ? f->time : f->deed == NOT_A_NUMBER && f->steps >= 100 ? NAN : 0.0;
+    v[i] = r[i] == 0 ? f->time : r[i] > 6 ? 1.0 : f->deed == NOT_A_NUMBER && f->steps >= 100 ? NAN : 0.0;
   return 0;
 }
 int fmi2SetReal(void *c, const unsigned *r, size_t n, const double *v) {

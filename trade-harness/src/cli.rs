@@ -126,6 +126,9 @@ pub struct StudyArgs {
     /// Add a foreign filter FMU under a label; repeatable
     #[arg(long = "nav", value_name = "LABEL=PATH")]
     pub foreign: Vec<ForeignFilter>,
+    /// Let foreign filters read truth.*, as a bound rather than a filter
+    #[arg(long)]
+    pub allow_truth: bool,
     /// Tell what a variable of a foreign FMU is called here; repeatable
     #[arg(long = "map", value_name = "LABEL.THEIR_NAME=OUR_NAME")]
     pub mappings: Vec<Mapping>,

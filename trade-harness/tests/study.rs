@@ -397,3 +397,27 @@ fn a_mapped_name_takes_the_place_of_ours() {
     let (_, filters) = study(mapped, 1);
     near(row(&filters[0]).velocity.rmse, rms_norm(0..RUNS));
 }
+
+/// What no filter may see is refused by name, and costs nobody else anything; a bound is let through.
+#[test]
+fn a_filter_that_asks_for_the_truth_is_refused() {
+    let (_, filters) = study(
+        spec(Quirk::None, &[("good", Quirk::None), ("peeping", Quirk::AsksForTruth)]),
+        2,
+    );
+    assert_eq!((filters[0].failed(), filters[1].failed()), (0, RUNS as usize));
+    let failure = filters[1].runs[0].failure.clone().unwrap();
+    assert!(
+        failure.message.contains("'peeping' asks for 'truth.r_tc_n[1]'"),
+        "{}",
+        failure.message
+    );
+    assert!(failure.message.contains("--allow-truth"), "{}", failure.message);
+    let error = rehearse(&spec(Quirk::None, &[("peeping", Quirk::AsksForTruth)])).unwrap_err();
+    assert!(matches!(error, StudyError::AsksForTruth { .. }), "{error}");
+    let bound = Spec {
+        allow_truth: true,
+        ..spec(Quirk::None, &[("peeping", Quirk::AsksForTruth)])
+    };
+    assert_eq!(study(bound, 1).1[0].failed(), 0);
+}

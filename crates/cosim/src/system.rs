@@ -147,6 +147,33 @@ impl System {
         Ok(count)
     }
 
+    /// Connects every unfed input of one slave to the output of equal name of another, where there is one.
+    ///
+    /// * returns: the number of connections made.
+    ///
+    /// # Errors
+    /// [`CosimError::TypeMismatch`]; then nothing is connected.
+    pub fn connect_by_name_from(&mut self, source: SlaveId, target: SlaveId) -> Result<usize, CosimError> {
+        let outputs: HashMap<&str, PortAt> = self
+            .ports_of(Causality::Output)
+            .filter(|((slave, _), _)| *slave == source.0)
+            .map(|(at, port)| (port.name.as_str(), at))
+            .collect();
+        let mut made = Vec::new();
+        for (to, port) in self.ports_of(Causality::Input) {
+            if to.0 != target.0 || self.source_of(to).is_some() {
+                continue;
+            }
+            if let Some(&from) = outputs.get(port.name.as_str()) {
+                self.check_types(from, to)?;
+                made.push((from, to));
+            }
+        }
+        let count = made.len();
+        self.connections.extend(made);
+        Ok(count)
+    }
+
     /// Connects one output to one input. To connect the same pair again changes nothing.
     ///
     /// # Errors

@@ -74,6 +74,7 @@ impl Models {
             step: plan.step_s.unwrap_or(sample_period),
             sample_period,
             scheme: plan.scheme,
+            allow_truth: plan.allow_truth,
         })
     }
 

@@ -198,6 +198,16 @@ pub enum StudyError {
         /// Name of the contract.
         name: String,
     },
+    /// A filter that would know what it is to find out.
+    #[error(
+        "'{label}' asks for '{input}', which no filter may see; if it is meant as a bound rather than a filter, give --allow-truth"
+    )]
+    AsksForTruth {
+        /// Participant.
+        label: String,
+        /// The input.
+        input: String,
+    },
     /// Nothing feeds the initial estimate of a filter.
     #[error("'{label}' needs its initial estimate, but the truth offers no '{input}'")]
     MissingInput {

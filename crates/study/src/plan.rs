@@ -68,6 +68,9 @@ pub struct Plan {
     /// Foreign filters, after those of fmu-nav.
     #[serde(rename = "nav")]
     pub foreign: Vec<ForeignFilter>,
+    /// Whether foreign filters may read `truth.*`: what does is a bound and no filter.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub allow_truth: bool,
     /// Names in foreign FMUs.
     #[serde(rename = "map")]
     pub mappings: Vec<Mapping>,
@@ -92,6 +95,7 @@ impl Default for Plan {
             variations: Vec::new(),
             truth: None,
             foreign: Vec::new(),
+            allow_truth: false,
             mappings: Vec::new(),
             tuned: Vec::new(),
         }
@@ -271,6 +275,7 @@ mod tests {
             variations: vec!["fmu-nav.k=loguniform:0.1:10".parse().unwrap()],
             truth: Some("their.fmu".into()),
             foreign: vec!["other=b.fmu".parse().unwrap()],
+            allow_truth: true,
             mappings: vec!["other.x=est.r_tc_n".parse().unwrap()],
             tuned: vec![TunedSet {
                 file: None,

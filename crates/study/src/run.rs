@@ -79,10 +79,21 @@ fn couple(spec: &Spec, run: u32) -> Result<Coupled, StudyError> {
         .iter()
         .map(|filter| seat(&mut system, filter, spec.seed, run))
         .collect();
-    system.connect_by_name()?;
+    // The world feeds the filters, and nothing that a filter says reaches the world or another filter.
+    let mut seated = Vec::new();
+    for (placed, filter) in placed.into_iter().zip(&spec.filters) {
+        let fed = placed.and_then(|id| {
+            if !spec.allow_truth {
+                keep_from_the_truth(&system, id, filter)?;
+            }
+            system.connect_by_name_from(truth, id)?;
+            Ok(id)
+        });
+        seated.push(fed);
+    }
     let unconnected = system.unconnected_inputs();
-    let seats = placed.into_iter().zip(&spec.filters).map(|(placed, filter)| {
-        let id = placed?;
+    let seats = seated.into_iter().zip(&spec.filters).map(|(seated, filter)| {
+        let id = seated?;
         if let Some(open) = unconnected
             .iter()
             .find(|u| u.slave == id && u.input.starts_with("nav_init."))
@@ -101,6 +112,20 @@ fn couple(spec: &Spec, run: u32) -> Result<Coupled, StudyError> {
         truth,
         truth_reader,
         seats,
+    })
+}
+
+/// Refuses a filter that asks for what no filter may see.
+fn keep_from_the_truth(system: &System, id: SlaveId, filter: &Participant) -> Result<(), StudyError> {
+    let truth = system
+        .unconnected_inputs()
+        .into_iter()
+        .find(|open| open.slave == id && open.input.starts_with("truth."));
+    truth.map_or(Ok(()), |open| {
+        Err(StudyError::AsksForTruth {
+            label: filter.label.clone(),
+            input: open.input,
+        })
     })
 }
 

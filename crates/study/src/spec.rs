@@ -27,6 +27,8 @@ pub struct Spec {
     pub sample_period: f64,
     /// When values are handed over.
     pub scheme: Scheme,
+    /// Whether filters may read `truth.*`, as bounds do.
+    pub allow_truth: bool,
 }
 
 impl Spec {

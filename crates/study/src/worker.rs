@@ -132,6 +132,7 @@ fn subset(spec: &Spec, filters: &[usize]) -> Spec {
         step: spec.step,
         sample_period: spec.sample_period,
         scheme: spec.scheme,
+        allow_truth: spec.allow_truth,
     }
 }
 

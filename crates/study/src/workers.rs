@@ -36,6 +36,8 @@ struct Worker {
     requests: Option<ChildStdin>,
     answers: Receiver<io::Result<Option<Message<Answer>>>>,
     printed: Arc<Mutex<Vec<u8>>>,
+    /// Closed when all that was printed is there.
+    printing: Receiver<()>,
 }
 
 /// Why a worker has no answer.
@@ -199,15 +201,20 @@ impl Worker {
             });
         }
         let printed = Arc::new(Mutex::new(Vec::new()));
+        let (printing, all_printed) = mpsc::channel();
         if let Some(output) = child.stderr.take() {
             let kept = Arc::clone(&printed);
-            thread::spawn(move || keep_the_end(output, &kept));
+            thread::spawn(move || {
+                keep_the_end(output, &kept);
+                drop(printing);
+            });
         }
         Ok(Self {
             requests: child.stdin.take(),
             child,
             answers,
             printed,
+            printing: all_printed,
         })
     }
 
@@ -252,6 +259,7 @@ impl Worker {
                 Err(error) => break Err(error),
             }
         };
+        let _ = self.printing.recv_timeout(Duration::from_millis(500));
         let how = status.map_or_else(|error| error.to_string(), describe);
         Lost::Died {
             participant: None,

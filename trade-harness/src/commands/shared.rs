@@ -120,6 +120,7 @@ pub(super) fn plan(study: &StudyArgs) -> Result<Plan, HarnessError> {
         variations: study.variations.clone(),
         truth: study.truth.clone(),
         foreign: study.foreign.clone(),
+        allow_truth: study.allow_truth,
         mappings: study.mappings.clone(),
         tuned,
         ..Plan::default()

@@ -90,6 +90,8 @@ pub enum Quirk {
     Tunable,
     /// A truth whose LiDAR samples every 2 s and whose radio every 3 s, so that some seconds have no sample.
     TwoRates,
+    /// A filter that would read the truth.
+    AsksForTruth,
     /// Samples of multiples of five hold no measurement; the NIS output keeps a wild value then.
     Drops,
 }
@@ -132,6 +134,7 @@ pub fn spec(truth: Quirk, filters: &[(&str, Quirk)]) -> Spec {
         step: 1.0,
         sample_period: 1.0,
         scheme: Scheme::GaussSeidel,
+        allow_truth: false,
     }
 }
 
@@ -181,6 +184,9 @@ impl Mock {
                 mock.vector(name);
             }
             return mock;
+        }
+        if quirk == Quirk::AsksForTruth {
+            mock.port("truth.r_tc_n[1]", BaseType::Real, Causality::Input);
         }
         if quirk == Quirk::Tunable {
             mock.port("gain", BaseType::Real, Causality::Parameter);
