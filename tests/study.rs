@@ -12,7 +12,15 @@ fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-const STUDY: [&str; 5] = ["compare", "--filters", "fixed_q,milton@consistent", "--runs", "3"];
+const STUDY: [&str; 7] = [
+    "compare",
+    "--filters",
+    "fixed_q,milton@consistent",
+    "--runs",
+    "3",
+    "--case",
+    "tried",
+];
 
 #[test]
 fn threads_repeats_and_masters_give_the_same_bytes() {

@@ -255,9 +255,9 @@ pub struct CompareArgs {
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "results/compare")]
     pub out: PathBuf,
-    /// Text of the 'case' column
-    #[arg(long, value_name = "NAME", default_value = "nominal", value_parser = case_name)]
-    pub case: String,
+    /// Text of the 'case' column [default: nominal, or what differs from it]
+    #[arg(long, value_name = "NAME", value_parser = case_name)]
+    pub case: Option<String>,
     /// What becomes of a study that is in the folder.
     #[command(flatten)]
     pub folder: FolderArgs,
@@ -461,10 +461,7 @@ mod tests {
     fn defaults_are_those_of_the_manual() {
         let args = compare(&[]).unwrap();
         assert!(args.study.filters.is_empty() && args.study.variations.is_empty());
-        assert_eq!(
-            (args.work.runs, args.study.seed, args.case.as_str()),
-            (100, 1, "nominal")
-        );
+        assert_eq!((args.work.runs, args.study.seed, args.case.as_deref()), (100, 1, None));
         assert_eq!(args.worlds.named(), ["leo_venting"]);
         assert!(compare(&["--mission", "a.toml"]).unwrap().worlds.named().is_empty());
         assert_eq!(args.out, PathBuf::from("results/compare"));

@@ -149,6 +149,14 @@ pub enum HarnessError {
         /// Why.
         source: ctrlc::Error,
     },
+    /// A study that is called nominal and is not.
+    #[error(
+        "case 'nominal' is for missions as they stand, and here differs: {differs}; leave --case out, or name it otherwise"
+    )]
+    NotNominal {
+        /// What does.
+        differs: String,
+    },
     /// Another process works in the folder.
     #[error("{} is in use by another process; wait for it, or give another folder with --out", path.display())]
     InUse {

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use cosim::Value;
+use interface::Sensor;
 
 use crate::arguments::{Assignment, FilterChoice};
 use crate::error::StudyError;
@@ -31,6 +32,54 @@ impl Models {
             &plan.foreign,
             &plan.mappings,
         )
+    }
+
+    /// Refuses what is set twice, or set in vain: for a filter that is in no study, for a sensor that no mission has.
+    ///
+    /// # Errors
+    /// [`StudyError::SetTwice`], [`StudyError::NoEffect`].
+    pub fn check_effects(&self, plan: &Plan, worlds: &[World]) -> Result<(), StudyError> {
+        for (index, a) in plan.assignments.iter().enumerate() {
+            let same = |b: &Assignment| (&a.model, &a.variable) == (&b.model, &b.variable);
+            if plan.assignments[..index].iter().any(same) {
+                return Err(StudyError::SetTwice {
+                    model: a.model.clone(),
+                    variable: a.variable.clone(),
+                });
+            }
+        }
+        let set = plan.in_fmus().map(|a| (&a.model, &a.variable));
+        let varied = plan.variations.iter().map(|v| (&v.model, &v.variable));
+        for (model, variable) in set.chain(varied) {
+            let owner = variable.split_once('.').map_or("", |(owner, _)| owner);
+            let in_vain = if model == NAV && self.has_filter(owner) {
+                let chosen = |world: &World| plan.choices(world).iter().any(|choice| choice.name == owner);
+                (!worlds.iter().any(chosen)).then(|| format!("filter '{owner}' takes no part"))
+            } else if model == TRUTH && plan.truth.is_none() {
+                let sensor = Sensor::ALL.into_iter().find(|sensor| sensor.name() == owner);
+                let has = |world: &World, sensor| world.mission.sensors.of_the_target().any(|own| own.sensor == sensor);
+                sensor
+                    .filter(|sensor| !worlds.iter().any(|world| has(world, *sensor)))
+                    .map(|sensor| format!("no mission of the study has {}", sensor.table()))
+            } else {
+                None
+            };
+            if let Some(why) = in_vain {
+                return Err(StudyError::NoEffect {
+                    model: model.clone(),
+                    variable: variable.clone(),
+                    why,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether fmu-nav has a filter of this name.
+    fn has_filter(&self, name: &str) -> bool {
+        let filter = self.nav.as_ref().and_then(|nav| nav.description().get("filter"));
+        let items = filter.and_then(|filter| filter.enumeration_items());
+        items.is_some_and(|items| items.iter().any(|item| item.name == name))
     }
 
     /// The study of one world of a plan.

@@ -198,6 +198,24 @@ pub enum StudyError {
         /// Name of the contract.
         name: String,
     },
+    /// A parameter is set twice; the second would win without a word.
+    #[error("{model}.{variable} is set twice; give one --set for it")]
+    SetTwice {
+        /// Model.
+        model: String,
+        /// Variable.
+        variable: String,
+    },
+    /// A setting that changes nothing.
+    #[error("{model}.{variable} would change nothing: {why}; leave it out")]
+    NoEffect {
+        /// Model.
+        model: String,
+        /// Variable.
+        variable: String,
+        /// Why.
+        why: String,
+    },
     /// A filter that would know what it is to find out.
     #[error(
         "'{label}' asks for '{input}', which no filter may see; if it is meant as a bound rather than a filter, give --allow-truth"

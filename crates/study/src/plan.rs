@@ -206,6 +206,59 @@ impl Plan {
     }
 }
 
+/// Longest name of a case that is made from what differs.
+const LONGEST_CASE: usize = 60;
+
+impl Plan {
+    /// A name of the case that says what differs from the missions as they stand: `nominal` where nothing does, else the
+    /// settings, as in `vent.scale-10`; a long list is cut, and a checksum tells it from others.
+    pub fn case_name(&self) -> String {
+        let differs = self.deviations();
+        if differs.is_empty() {
+            return "nominal".to_owned();
+        }
+        let plain = |c: char| {
+            if c.is_ascii_alphanumeric() || matches!(c, '.' | '_') {
+                c
+            } else {
+                '-'
+            }
+        };
+        let name: String = differs.join("_").chars().map(plain).collect();
+        let name = name.trim_matches(['-', '.']).to_owned();
+        if name.len() <= LONGEST_CASE {
+            return name;
+        }
+        let whole = crc32fast::hash(differs.join("_").as_bytes());
+        format!("{}-{whole:08x}", &name[..LONGEST_CASE - 9])
+    }
+
+    /// What differs from the missions as they stand, a short text each. Filters, runs and seeds are no difference, nor is how
+    /// somebody's filter is set up.
+    pub fn deviations(&self) -> Vec<String> {
+        let foreign = |a: &&Assignment| self.foreign.iter().any(|f| f.label == a.model);
+        let own = self.assignments.iter().filter(|a| !foreign(a));
+        let set = own.map(|a| format!("{}-{}", a.variable, a.value));
+        let varied = self
+            .variations
+            .iter()
+            .map(|v| format!("{}-{}", v.variable, v.distribution));
+        let truth = self
+            .truth
+            .iter()
+            .filter_map(|path| Some(format!("truth-{}", path.file_stem()?.to_string_lossy())));
+        let step = self.step_s.map(|step| format!("step-{step}"));
+        let duration = self.duration_s.map(|duration| format!("duration-{duration}"));
+        let scheme = (self.scheme != Scheme::GaussSeidel).then(|| scheme_name(self.scheme).to_owned());
+        set.chain(varied)
+            .chain(truth)
+            .chain(step)
+            .chain(duration)
+            .chain(scheme)
+            .collect()
+    }
+}
+
 /// Checks the name of a case, which stands in file names.
 ///
 /// # Errors
@@ -320,6 +373,36 @@ mod tests {
             plan.worlds(Path::new("none")),
             Err(StudyError::ScenarioTwice { .. })
         ));
+    }
+
+    #[test]
+    fn a_case_is_nominal_only_where_nothing_differs() {
+        let case = |text: &str| {
+            let name = read(text).unwrap().case_name();
+            assert_eq!(check_case(&name), Ok(()), "{name}");
+            name
+        };
+        assert_eq!(
+            case(r#"{"runs": 7, "seed": 3, "filters": ["snc"], "scenario": ["formation"]}"#),
+            "nominal"
+        );
+        assert_eq!(case(r#"{"set": ["fmu-truth.vent.scale=10"]}"#), "vent.scale-10");
+        assert_eq!(
+            case(r#"{"set": ["mission.vent.co2.period_s=300"], "scheme": "jacobi"}"#),
+            "vent.co2.period_s-300_jacobi"
+        );
+        assert_eq!(
+            case(r#"{"vary": ["fmu-nav.off_nominal=uniform:0.1:10"], "step_s": 0.25}"#),
+            "off_nominal-uniform-0.1-10_step-0.25"
+        );
+        assert_eq!(case(r#"{"truth": "there/their world.fmu"}"#), "truth-their-world");
+        let long = |value: &str| {
+            case(&format!(
+                "{{\"set\": [\"fmu-truth.target_burn.a_t_n[1]={}{value}\"]}}",
+                "1".repeat(80)
+            ))
+        };
+        assert!(long("1").len() <= LONGEST_CASE && long("1") != long("2"));
     }
 
     #[test]

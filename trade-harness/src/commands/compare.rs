@@ -16,10 +16,15 @@ use crate::store::{Claim, StudyFolder, identity};
 
 pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
     end_when_asked()?;
-    let plan = Plan {
-        case: args.case.clone(),
-        ..plan_of(&args.study, &args.worlds, &args.work)?
-    };
+    let plan = plan_of(&args.study, &args.worlds, &args.work)?;
+    let case = args.case.clone().unwrap_or_else(|| plan.case.clone());
+    let differs = plan.deviations();
+    if case == "nominal" && !differs.is_empty() {
+        return Err(HarnessError::NotNominal {
+            differs: differs.join(", "),
+        });
+    }
+    let plan = Plan { case, ..plan };
     let models = models(&plan, &args.study.build)?;
     let foreign = plan.truth.is_some() || !plan.foreign.is_empty();
     let isolate = args.isolation.isolate || (foreign && !args.isolation.no_isolate);

@@ -86,6 +86,7 @@ pub(super) fn end_when_asked() -> Result<(), HarnessError> {
 /// * `folder`: where the files of missions go that the plan changes.
 pub(super) fn cast(plan: &Plan, models: &Models, folder: &Path) -> Result<Vec<Study>, HarnessError> {
     let worlds = plan.worlds(folder)?;
+    models.check_effects(plan, &worlds)?;
     let studies = worlds.iter().map(|world| Ok(models.study(plan, world)?));
     studies.collect()
 }
@@ -127,17 +128,21 @@ pub(super) fn plan(study: &StudyArgs) -> Result<Plan, HarnessError> {
     })
 }
 
-/// The same with worlds and work.
+/// The same with worlds and work, and a case that says what differs.
 ///
 /// # Errors
 /// As for [`plan`].
 pub(super) fn plan_of(study: &StudyArgs, worlds: &WorldArgs, work: &WorkArgs) -> Result<Plan, HarnessError> {
-    Ok(Plan {
+    let plan = Plan {
         scenarios: worlds.named(),
         missions: worlds.missions.clone(),
         runs: work.runs,
         jobs: work.jobs,
         ..plan(study)?
+    };
+    Ok(Plan {
+        case: plan.case_name(),
+        ..plan
     })
 }
 
