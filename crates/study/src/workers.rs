@@ -259,7 +259,7 @@ impl Worker {
                 Err(error) => break Err(error),
             }
         };
-        let _ = self.printing.recv_timeout(Duration::from_millis(500));
+        let _ = self.printing.recv_timeout(Duration::from_secs(2));
         let how = status.map_or_else(|error| error.to_string(), describe);
         Lost::Died {
             participant: None,
