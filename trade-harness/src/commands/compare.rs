@@ -8,6 +8,7 @@ use study::{Models, Plan, Study, StudyResult, Summary, rehearse};
 use super::files::Report;
 use super::merge::{KEPT, Kept, shard_folder};
 use super::progress::{run_watched, shard_watched};
+use super::report::write_page;
 use super::shared::{Verdict, closing, end_when_asked, models, note, plan_of, say, scratch};
 use crate::HarnessError;
 use crate::claims;
@@ -76,7 +77,11 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
     // What a source claims is claimed of its own world, not of a changed one.
     let as_published =
         args.study.assignments.is_empty() && args.study.variations.is_empty() && args.study.truth.is_none();
-    let missed = finish(folder, &studies, &results, &models, &plan, as_published, out)?;
+    let told = Told {
+        as_published,
+        page: !args.no_report,
+    };
+    let missed = finish(folder, &studies, &results, &models, &plan, told, out)?;
     Ok(if missed && args.check {
         Verdict::BoundsMissed
     } else {
@@ -93,6 +98,15 @@ pub(super) fn cast(plan: &Plan, models: &Models, folder: &Path) -> Result<Vec<St
     studies.collect()
 }
 
+/// What is told of finished studies beside their tables.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Told {
+    /// Whether the worlds are those that the papers make claims of.
+    pub(super) as_published: bool,
+    /// Whether the folder gets its HTML page.
+    pub(super) page: bool,
+}
+
 /// Writes and prints what finished studies found; returns whether a bound was missed.
 pub(super) fn finish(
     folder: StudyFolder,
@@ -100,14 +114,17 @@ pub(super) fn finish(
     results: &[StudyResult],
     models: &Models,
     plan: &Plan,
-    as_published: bool,
+    told: Told,
     out: &mut dyn Write,
 ) -> Result<bool, HarnessError> {
     let report = Report::new(studies, results);
     let output = folder.output().clone();
-    let files = report.write(&output, models, plan, 0, Vec::new(), Some(folder.identity()))?;
+    let mut files = report.write(&output, models, plan, 0, Vec::new(), Some(folder.identity()))?;
     folder.complete()?;
-    print(&report, as_published, &output, &files, out)
+    if told.page {
+        files.push(write_page(&output)?);
+    }
+    print(&report, told.as_published, &output, &files, out)
 }
 
 fn print(

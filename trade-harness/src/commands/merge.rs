@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use study::{Journal, Models, NAV, OwnFmus, Plan, Shard, Study, TRUTH};
 
-use super::compare::{cast, finish};
+use super::compare::{Told, cast, finish};
 use super::progress::run_watched;
 use super::shared::{Verdict, scratch};
 use crate::HarnessError;
@@ -109,7 +109,11 @@ pub(super) fn merge(args: &MergeArgs, out: &mut dyn Write) -> Result<Verdict, Ha
         .map(|study| run_watched(study, Some(&folder.journal(study)?), args.quiet))
         .collect();
     let as_published = plan.assignments.is_empty() && plan.variations.is_empty() && plan.truth.is_none();
-    finish(folder, &studies, &results?, &models, &plan, as_published, out)?;
+    let told = Told {
+        as_published,
+        page: true,
+    };
+    finish(folder, &studies, &results?, &models, &plan, told, out)?;
     let shards = args.dir.join(SHARDS);
     fs::remove_dir_all(&shards).map_err(|source| HarnessError::Write { path: shards, source })?;
     Ok(Verdict::Done)
