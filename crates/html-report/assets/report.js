@@ -94,10 +94,13 @@
     for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) found.push(k * step);
     return found;
   };
+  /** Places of a logarithmic axis: powers of ten, or also twice and five times these where there are few. */
   const decades = (low, high) => {
     const found = [];
-    for (let e = Math.ceil(Math.log10(low) - 1e-9); e <= Math.log10(high) + 1e-9; e += 1) found.push(10 ** e);
-    return found.length > 1 ? found : ticks(low, high, 5).filter((v) => v > 0);
+    for (let e = Math.floor(Math.log10(low)); e <= Math.log10(high); e += 1) {
+      for (const m of high / low > 300 ? [1] : [1, 2, 5]) found.push(+`${m}e${e}`);
+    }
+    return found.filter((v) => v >= low * (1 - 1e-9) && v <= high * (1 + 1e-9));
   };
 
   /**
@@ -179,7 +182,8 @@
     into.append(holder);
     const range = o.range ?? [o.log ? 0.1 : -1, 1];
     const whole = [o.data[0][0], o.data[0][o.data[0].length - 1]];
-    const isWhole = (u) => u.scales.x.min <= whole[0] && u.scales.x.max >= whole[1];
+    // Before the first drawing the scale of time is not known.
+    const isWhole = (u) => (u.scales.x.min ?? null) === null || (u.scales.x.min <= whole[0] && u.scales.x.max >= whole[1]);
     let factor = exponent(Math.max(...range.map(Math.abs)));
     const axis = { stroke: css("--ink"), font, labelFont: font, labelSize: 20, labelGap: 0, grid: { stroke: css("--grid"), width: 1 }, ticks: { stroke: css("--rule"), size: 4, width: 1 } };
     const shade = (u) => {
@@ -216,8 +220,8 @@
       axes: [
         { ...axis, label: o.last ? "time [s]" : undefined, size: 30, space: 60, values: (self, all) => all.map(trimmed) },
         { ...axis, size: 46, label: () => `${o.label} [${o.log ? o.unit : unitOf(o.unit, factor)}]`,
-          filter: (self, all) => (o.log && self.scales.y.max / self.scales.y.min > 30 ? all.map((v) => (power(v) ? v : null)) : all),
-          values: (self, all) => all.map((v) => (v === null ? "" : o.log ? power(v) || trimmed(v) : trimmed(v / 10 ** factor))) },
+          ...(o.log ? { splits: (self) => decades(self.scales.y.min, self.scales.y.max) } : {}),
+          values: (self, all) => all.map((v) => (o.log ? power(v) || short(v) : trimmed(v / 10 ** factor))) },
       ],
       series: [{}, ...o.series.map((s) => ({ label: s.name, stroke: css(s.tint) || s.tint, width: s.width ?? 1.25, dash: s.dash, show: s.show ?? true, spanGaps: true, points: { show: false } }))],
       hooks: { drawAxes: [shade], setCursor: [(self) => self.cursor.event && o.hover(self)] },

@@ -19,6 +19,22 @@ pub fn short(value: Option<f64>) -> String {
     }
 }
 
+/// A value with its standard error: the error with two significant digits, the value with as many decimals.
+pub(crate) fn with_error(value: f64, error: Option<f64>) -> String {
+    let Some(error) = error.filter(|e| e.is_finite() && *e > 0.0) else {
+        return short(Some(value));
+    };
+    // Rounding first: 0.0996 is 0.10.
+    let place = significant(error, 2).log10().floor() as i32;
+    if (-4..=4).contains(&place) {
+        let decimals = usize::try_from(1 - place).unwrap_or(0);
+        format!("{value:.decimals$} ± {error:.decimals$}")
+    } else {
+        let unit = 10.0_f64.powi(place);
+        format!("({:.1} ± {:.1})e{place}", value / unit, error / unit)
+    }
+}
+
 /// The value to so many significant digits.
 pub(crate) fn significant(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
@@ -27,6 +43,19 @@ pub(crate) fn significant(value: f64, digits: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_error_gives_the_decimals() {
+        for (value, error, text) in [
+            (0.24491, Some(0.00577), "0.2449 ± 0.0058"),
+            (-1.0, Some(0.0996), "-1.00 ± 0.10"),
+            (1234.5, Some(120.0), "1234 ± 120"),
+            (1.234e-5, Some(4.2e-7), "(123.4 ± 4.2)e-7"),
+            (0.5, None, "0.500"),
+        ] {
+            assert_eq!(with_error(value, error), text);
+        }
+    }
 
     #[test]
     fn three_digits_at_any_magnitude() {

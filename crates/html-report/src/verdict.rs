@@ -3,7 +3,7 @@
 use stats::{PairedDifference, paired_difference};
 
 use crate::ReportError;
-use crate::number::short;
+use crate::number::with_error;
 
 /// What a filter achieved.
 #[derive(Debug, Clone)]
@@ -77,13 +77,8 @@ impl Verdict {
 
     /// The first sentence: the best filter and its error.
     pub fn headline(&self) -> String {
-        let error = self.best.standard_error.map(|e| format!(" ± {}", short(Some(e))));
-        format!(
-            "{} has the least position RMSE, {}{} m",
-            self.best.filter,
-            short(self.best.rmse),
-            error.unwrap_or_default()
-        )
+        let rmse = with_error(self.best.rmse.unwrap_or(f64::NAN), self.best.standard_error);
+        format!("{} has the least position RMSE, {rmse} m", self.best.filter)
     }
 
     /// What follows it: the next filter, and which ones cannot be told from the best.
@@ -130,13 +125,12 @@ fn beside(next: &Rival) -> String {
         return format!(
             "The next, {}, differs by {} m in the one run they share; one run gives no uncertainty, so they cannot be told apart.",
             next.filter,
-            short(Some(d.mean))
+            with_error(d.mean, None)
         );
     };
     let measured = format!(
-        "{} ± {} m, paired over {} runs",
-        short(Some(d.mean)),
-        short(Some(error)),
+        "{} m (mean ± standard error, paired over {} runs)",
+        with_error(d.mean, Some(error)),
         d.runs
     );
     if next.is_worse() {
@@ -174,7 +168,7 @@ mod tests {
         assert_eq!(verdict.headline(), "a has the least position RMSE, 1.00 m");
         assert_eq!(
             verdict.sentences(),
-            ["The next, b, is worse by 2.00 ± 0.577 m, paired over 3 runs."]
+            ["The next, b, is worse by 2.00 ± 0.58 m (mean ± standard error, paired over 3 runs)."]
         );
         let verdict = Verdict::new(&[clear, near, best]).unwrap().unwrap();
         assert_eq!(verdict.rivals.iter().map(Rival::is_worse).collect::<Vec<_>>(), [false, true]);
