@@ -302,6 +302,9 @@ pub struct ReportArgs {
     /// Folder of a finished study; report.html goes there
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
+    /// Say nothing of what was written
+    #[arg(long, short)]
+    pub quiet: bool,
 }
 
 /// `tune`.

@@ -218,13 +218,14 @@
         } },
       },
       axes: [
-        { ...axis, label: o.last ? "time [s]" : undefined, size: 30, space: 60, values: (self, all) => all.map(trimmed) },
+        { ...axis, label: o.last ? "time [s]" : undefined, size: 30, space: 50, values: (self, all) => all.map(trimmed) },
         { ...axis, size: 46, label: () => `${o.label} [${o.log ? o.unit : unitOf(o.unit, factor)}]`,
-          ...(o.log ? { splits: (self) => decades(self.scales.y.min, self.scales.y.max) } : {}),
+          ...(o.log ? { splits: (self) => decades(self.scales.y.min, self.scales.y.max), filter: (self, all) => all } : {}),
           values: (self, all) => all.map((v) => (o.log ? power(v) || short(v) : trimmed(v / 10 ** factor))) },
       ],
       series: [{}, ...o.series.map((s) => ({ label: s.name, stroke: css(s.tint) || s.tint, width: s.width ?? 1.25, dash: s.dash, show: s.show ?? true, spanGaps: true, points: { show: false } }))],
-      hooks: { drawAxes: [shade], setCursor: [(self) => self.cursor.event && o.hover(self)] },
+      // The time shown, for scripts that drive the page.
+      hooks: { setScale: [(self, scale) => { if (scale === "x") [holder.dataset.from, holder.dataset.to] = [self.scales.x.min, self.scales.x.max]; }], drawAxes: [shade], setCursor: [(self) => self.cursor.event && o.hover(self)] },
     }, o.data, holder);
     made.push({ u, holder });
     return u;

@@ -87,8 +87,16 @@ mod tests {
                 {"name": "circle", "first_s": {"after": "circle", "offset_s": 1.0}, "duration_s": 1.0},
             ],
         });
-        let times: Vec<_> = events(&mission).iter().map(|e| (e.name.clone(), e.from_s, e.to_s, e.drawn)).collect();
-        let expected = [("capture", 50.0, 55.0, false), ("a", 100.0, 310.0, true), ("a", 700.0, 910.0, true), ("b", 140.0, 341.0, true)];
+        let times: Vec<_> = events(&mission)
+            .iter()
+            .map(|e| (e.name.clone(), e.from_s, e.to_s, e.drawn))
+            .collect();
+        let expected = [
+            ("capture", 50.0, 55.0, false),
+            ("a", 100.0, 310.0, true),
+            ("a", 700.0, 910.0, true),
+            ("b", 140.0, 341.0, true),
+        ];
         assert_eq!(times, expected.map(|(n, a, b, d)| (n.to_owned(), a, b, d)));
     }
 }

@@ -85,9 +85,21 @@ impl Folder {
         Ok(Self {
             path: path.to_owned(),
             manifest,
-            summary: table(path, "summary.csv", &["scenario", "filter", "case", "pos_rmse_m", "failed", "diverged"])?,
-            runs: table(path, "runs.csv", &["scenario", "filter", "case", "run", "failed", "pos_rmse_m"])?,
-            paired: table(path, "paired.csv", &["scenario", "filter", "quantity", "mean_difference"])?,
+            summary: table(
+                path,
+                "summary.csv",
+                &["scenario", "filter", "case", "pos_rmse_m", "failed", "diverged"],
+            )?,
+            runs: table(
+                path,
+                "runs.csv",
+                &["scenario", "filter", "case", "run", "failed", "pos_rmse_m"],
+            )?,
+            paired: table(
+                path,
+                "paired.csv",
+                &["scenario", "filter", "quantity", "mean_difference"],
+            )?,
             failures: table(path, "failures.csv", &["scenario", "filter", "run", "message"])?,
         })
     }

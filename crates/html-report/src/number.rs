@@ -37,7 +37,9 @@ pub(crate) fn with_error(value: f64, error: Option<f64>) -> String {
 
 /// The value to so many significant digits.
 pub(crate) fn significant(value: f64, digits: usize) -> f64 {
-    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
+    format!("{value:.*e}", digits.saturating_sub(1))
+        .parse()
+        .unwrap_or(value)
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 use askama::Template;
 use serde::Serialize;
 use serde_json::Value;
-use stats::{Bounds, mean_chi_square_bounds};
 use statrs::distribution::{ContinuousCDF, StudentsT};
+use stats::{Bounds, mean_chi_square_bounds};
 
 use crate::ReportError;
 use crate::events::{Event, events};
@@ -194,7 +194,11 @@ fn section(folder: &Folder, study: &StudyFacts, figures: &Figures) -> Result<Sec
         None => ("No filter has a result.".to_owned(), Vec::new()),
     };
     let deviations = deviations(study);
-    let every = figures.filters.iter().filter_map(|f| Some(f.series.as_ref()?.every)).max();
+    let every = figures
+        .filters
+        .iter()
+        .filter_map(|f| Some(f.series.as_ref()?.every))
+        .max();
     Ok(Section {
         id: figures.id.clone(),
         scenario: study.scenario.clone(),
@@ -214,7 +218,10 @@ fn section(folder: &Folder, study: &StudyFacts, figures: &Figures) -> Result<Sec
         badges: summary.iter().map(|row| badges(row)).collect(),
         headings: TABLE.iter().map(|(_, heading, unit)| [*heading, *unit]).collect(),
         rows: summary.iter().map(|row| table_row(row)).collect(),
-        worst: summary.iter().map(|row| worst(folder, study, row.text("filter"))).collect(),
+        worst: summary
+            .iter()
+            .map(|row| worst(folder, study, row.text("filter")))
+            .collect(),
         notes: study.notes.clone(),
         every: every.unwrap_or(1),
         has_curves: every.is_some(),
@@ -230,7 +237,11 @@ fn run_values(folder: &Folder, study: &StudyFacts, row: &Row) -> RunValues {
         filter: filter.to_owned(),
         rmse: row.number("pos_rmse_m"),
         standard_error: row.number("pos_rmse_se_m"),
-        runs: folder.runs(study, filter).iter().map(|r| r.number("pos_rmse_m")).collect(),
+        runs: folder
+            .runs(study, filter)
+            .iter()
+            .map(|r| r.number("pos_rmse_m"))
+            .collect(),
         failed: row.count("failed"),
         diverged: row.count("diverged"),
     }
@@ -253,7 +264,10 @@ fn deviations(study: &StudyFacts) -> Vec<String> {
     }
     // Both are numbers that were copied, not computed.
     if study.step_s.total_cmp(&study.sample_period_s).is_ne() {
-        found.push(format!("step of {} s instead of {} s", study.step_s, study.sample_period_s));
+        found.push(format!(
+            "step of {} s instead of {} s",
+            study.step_s, study.sample_period_s
+        ));
     }
     if let Some(own) = study.mission["time"]["duration_s"].as_f64()
         && own.total_cmp(&study.duration_s).is_ne()
@@ -374,7 +388,10 @@ fn replay(study: &StudyFacts, filter: &str, run: &str) -> String {
                 label == filter || !text.starts_with(&format!("{label}."))
             })
         };
-        texts(&plan[key]).iter().filter(concerns).for_each(|text| option(key, text));
+        texts(&plan[key])
+            .iter()
+            .filter(concerns)
+            .for_each(|text| option(key, text));
     }
     if study.step_s.total_cmp(&study.sample_period_s).is_ne() {
         option("step", &study.step_s.to_string());
@@ -415,12 +432,7 @@ fn figures(folder: &Folder, study: &StudyFacts, index: usize, points: usize) -> 
     })
 }
 
-fn filter_figures(
-    folder: &Folder,
-    study: &StudyFacts,
-    row: &Row,
-    points: usize,
-) -> Result<FilterFigures, ReportError> {
+fn filter_figures(folder: &Folder, study: &StudyFacts, row: &Row, points: usize) -> Result<FilterFigures, ReportError> {
     let name = row.text("filter");
     let epochs = folder.epochs(study, name)?;
     let series = epochs.as_ref().and_then(|epochs| series(epochs, points));
@@ -468,7 +480,12 @@ fn forest(row: &Row) -> Option<Forest> {
 /// Whatever tells this study from any other.
 fn digests(manifest: &Manifest) -> Vec<[String; 2]> {
     let mut found = Vec::new();
-    found.extend(manifest.identity.iter().map(|id| ["study (SHA-256)".to_owned(), id.clone()]));
+    found.extend(
+        manifest
+            .identity
+            .iter()
+            .map(|id| ["study (SHA-256)".to_owned(), id.clone()]),
+    );
     for (name, model) in &manifest.models {
         for (key, value) in model.as_object().into_iter().flatten() {
             if let (true, Some(value)) = (["guid", "sha256"].contains(&key.as_str()), value.as_str()) {

@@ -53,7 +53,11 @@ const QUANTITIES: [(&str, &str, &str, &str); 3] = [
 /// * returns: `None` when the file has no time.
 pub(crate) fn series(epochs: &Epochs, points: usize) -> Option<Series> {
     let time: Vec<f64> = epochs.column("t_s")?.iter().map(|t| t.unwrap_or(f64::NAN)).collect();
-    let every = if time.len() <= points { 1 } else { time.len().div_ceil((points / 2).max(1)) };
+    let every = if time.len() <= points {
+        1
+    } else {
+        time.len().div_ceil((points / 2).max(1))
+    };
     let thin = |column: &[Option<f64>]| thinned(column, every);
     let column = |name: &str| epochs.column(name).map(thin).unwrap_or_default();
     let quantities = QUANTITIES.into_iter().filter_map(|(prefix, name, suffix, unit)| {
@@ -95,7 +99,11 @@ fn residual_rows(epochs: &Epochs) -> Option<usize> {
         .filter(|(header, _)| is_residual(header))
         .map(|(_, column)| column)
         .collect();
-    let with_nis = epochs.column("nis")?.iter().enumerate().filter(|(_, nis)| nis.is_some());
+    let with_nis = epochs
+        .column("nis")?
+        .iter()
+        .enumerate()
+        .filter(|(_, nis)| nis.is_some());
     let mut rows = with_nis.map(|(i, _)| residuals.iter().filter(|c| c[i].is_some()).count());
     let first = rows.next().filter(|n| *n > 0)?;
     rows.all(|n| n == first).then_some(first)
@@ -142,7 +150,10 @@ mod tests {
     fn extremes_survive_in_their_order() {
         let values = [1.0, 9.0, 2.0, 5.0, 0.5, 4.0].map(Some);
         assert_eq!(thinned(&values, 3), [Some(1.0), Some(9.0), Some(5.0), Some(0.5)]);
-        assert_eq!(thinned(&[None, Some(3.0), None, None], 2), [Some(3.0), Some(3.0), None, None]);
+        assert_eq!(
+            thinned(&[None, Some(3.0), None, None], 2),
+            [Some(3.0), Some(3.0), None, None]
+        );
         assert_eq!(thinned_time(&[0.0, 1.0, 2.0, 3.0], 3), [0.0, 1.0, 3.0, 3.0]);
     }
 }

@@ -78,7 +78,7 @@ impl Verdict {
     /// The first sentence: the best filter and its error.
     pub fn headline(&self) -> String {
         let rmse = with_error(self.best.rmse.unwrap_or(f64::NAN), self.best.standard_error);
-        format!("{} has the least position RMSE, {rmse} m", self.best.filter)
+        format!("{} has the least position RMSE, {rmse}\u{a0}m", self.best.filter)
     }
 
     /// What follows it: the next filter, and which ones cannot be told from the best.
@@ -123,13 +123,13 @@ fn beside(next: &Rival) -> String {
     let d = &next.difference;
     let Some(error) = d.standard_error else {
         return format!(
-            "The next, {}, differs by {} m in the one run they share; one run gives no uncertainty, so they cannot be told apart.",
+            "The next, {}, differs by {}\u{a0}m in the one run they share; one run gives no uncertainty, so they cannot be told apart.",
             next.filter,
             with_error(d.mean, None)
         );
     };
     let measured = format!(
-        "{} m (mean ± standard error, paired over {} runs)",
+        "{}\u{a0}m (mean ± standard error, paired over {} runs)",
         with_error(d.mean, Some(error)),
         d.runs
     );
@@ -165,29 +165,39 @@ mod tests {
         let clear = filter("b", 3.0, &[2.0, 3.0, 4.0]);
         let near = filter("c", 2.0, &[1.0, 1.0, 4.0]);
         let verdict = Verdict::new(&[clear.clone(), best.clone()]).unwrap().unwrap();
-        assert_eq!(verdict.headline(), "a has the least position RMSE, 1.00 m");
+        assert_eq!(verdict.headline(), "a has the least position RMSE, 1.00\u{a0}m");
         assert_eq!(
             verdict.sentences(),
-            ["The next, b, is worse by 2.00 ± 0.58 m (mean ± standard error, paired over 3 runs)."]
+            ["The next, b, is worse by 2.00 ± 0.58\u{a0}m (mean ± standard error, paired over 3 runs)."]
         );
         let verdict = Verdict::new(&[clear, near, best]).unwrap().unwrap();
-        assert_eq!(verdict.rivals.iter().map(Rival::is_worse).collect::<Vec<_>>(), [false, true]);
+        assert_eq!(
+            verdict.rivals.iter().map(Rival::is_worse).collect::<Vec<_>>(),
+            [false, true]
+        );
         assert!(verdict.sentences()[0].contains("cannot be told apart from the next, c"));
     }
 
     #[test]
     fn failed_runs_of_the_best_are_told_and_pairs_leave_them_out() {
         let best = filter("a", 1.0, &[1.0, f64::NAN, 1.0]);
-        let verdict = Verdict::new(&[best, filter("b", 3.0, &[2.0, 9.0, 4.0])]).unwrap().unwrap();
+        let verdict = Verdict::new(&[best, filter("b", 3.0, &[2.0, 9.0, 4.0])])
+            .unwrap()
+            .unwrap();
         assert_eq!(verdict.rivals[0].difference.runs, 2);
         assert_eq!(verdict.sentences()[1], "1 of its 3 runs failed and are in no RMSE.");
     }
 
     #[test]
     fn a_single_run_and_no_result_say_so() {
-        let one = Verdict::new(&[filter("a", 1.0, &[1.0]), filter("b", 2.0, &[2.0])]).unwrap().unwrap();
+        let one = Verdict::new(&[filter("a", 1.0, &[1.0]), filter("b", 2.0, &[2.0])])
+            .unwrap()
+            .unwrap();
         assert!(!one.rivals[0].is_worse() && one.sentences()[0].contains("one run gives no uncertainty"));
-        let none = RunValues { rmse: None, ..filter("a", 1.0, &[]) };
+        let none = RunValues {
+            rmse: None,
+            ..filter("a", 1.0, &[])
+        };
         assert!(Verdict::new(&[none]).unwrap().is_none());
     }
 }

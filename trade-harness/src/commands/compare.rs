@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use study::{Models, Plan, Study, StudyResult, Summary, rehearse};
+use study::{Models, Plan, Study, StudyResult, Summary, chain, rehearse};
 
 use super::files::Report;
 use super::merge::{KEPT, Kept, shard_folder};
@@ -120,10 +120,14 @@ pub(super) fn finish(
     let report = Report::new(studies, results);
     let output = folder.output().clone();
     let mut files = report.write(&output, models, plan, 0, Vec::new(), Some(folder.identity()))?;
-    folder.complete()?;
     if told.page {
-        files.push(write_page(&output)?);
+        match write_page(&output) {
+            Ok(name) => files.push(name),
+            // The results are worth more than their page.
+            Err(error) => note(&format!("note: there is no report.html: {}", chain(&error))),
+        }
     }
+    folder.complete()?;
     print(&report, told.as_published, &output, &files, out)
 }
 

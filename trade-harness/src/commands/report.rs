@@ -13,7 +13,9 @@ pub(super) fn report(args: &ReportArgs, out: &mut dyn Write) -> Result<Verdict, 
     // Before anything is written: what is no study stays as it is.
     let page = html_report::html(&args.dir)?;
     let path = OutputFolder::prepare(&args.dir)?.write(PAGE, page.as_bytes())?;
-    say(out, &path.display().to_string())?;
+    if !args.quiet {
+        say(out, &path.display().to_string())?;
+    }
     Ok(Verdict::Done)
 }
 
