@@ -214,7 +214,7 @@ fn a_folder_that_is_no_study_is_refused_and_left_alone() {
 
 /// Works the page and writes what it finds into an element of its own.
 const PROBE: &str = r#"<script>
-addEventListener("load", () => setTimeout(() => {
+addEventListener("load", () => setTimeout(async () => {
   const figure = (name) => document.querySelector(`figure.${name}`);
   const shown = {};
   const note = (name, value) => { shown[name] = value; };
@@ -238,32 +238,35 @@ addEventListener("load", () => setTimeout(() => {
   note("hidden", before - curves());
   // A drag over the first plot zooms all of its figure; a double click resets them.
   const spans = () => [...figure("errors").querySelectorAll(".plots > div")].map((d) => Math.round(d.dataset.to - d.dataset.from));
-  const whole = spans();
   const over = figure("errors").querySelector(".u-over"), box = over.getBoundingClientRect();
   const mouse = (kind, part, target) => target.dispatchEvent(new MouseEvent(kind, { bubbles: true, button: 0, clientX: box.left + part * box.width, clientY: box.top + 0.5 * box.height, movementX: 5, movementY: 5 }));
+  const wait = () => new Promise((done) => setTimeout(done, 200));
+  await wait();
+  const whole = spans();
   mouse("mouseenter", 0.25, over);
   mouse("mousemove", 0.25, over);
   mouse("mousedown", 0.25, over);
+  await wait();
   mouse("mousemove", 0.5, over);
+  await wait();
   mouse("mouseup", 0.5, document);
-  setTimeout(() => {
-    note("zoomed", spans().every((s, i) => Math.abs(s / whole[i] - 0.25) < 0.05));
-    mouse("mousemove", 0.4, over);
-    note("readout", figure("errors").querySelector(".readout").textContent);
-    mouse("dblclick", 0.5, over);
-    setTimeout(() => {
-      note("reset", String(spans()) === String(whole));
-      const theme = document.documentElement.dataset.theme;
-      document.getElementById("theme").click();
-      note("theme", theme !== document.documentElement.dataset.theme);
-      note("wide", document.documentElement.scrollWidth > innerWidth);
-      note("resources", performance.getEntriesByType("resource").length);
-      const made = document.createElement("pre");
-      made.id = "probe";
-      made.textContent = JSON.stringify(shown);
-      document.body.append(made);
-    }, 200);
-  }, 200);
+  await wait();
+  note("zoomed", spans().every((s, i) => Math.abs(s / whole[i] - 0.25) < 0.05));
+  mouse("mousemove", 0.4, over);
+  await wait();
+  note("readout", figure("errors").querySelector(".readout").textContent);
+  mouse("dblclick", 0.5, over);
+  await wait();
+  note("reset", String(spans()) === String(whole));
+  const theme = document.documentElement.dataset.theme;
+  document.getElementById("theme").click();
+  note("theme", theme !== document.documentElement.dataset.theme);
+  note("wide", document.documentElement.scrollWidth > innerWidth);
+  note("resources", performance.getEntriesByType("resource").length);
+  const made = document.createElement("pre");
+  made.id = "probe";
+  made.textContent = JSON.stringify(shown);
+  document.body.append(made);
 }, 200));
 </script>"#;
 

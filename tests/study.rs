@@ -6,7 +6,7 @@ mod common;
 
 use common::{files, fmu, harness, harness_ok, read_csv, repacked, results};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 fn text(path: &Path) -> &str {
     path.to_str().unwrap()

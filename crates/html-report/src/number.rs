@@ -25,13 +25,16 @@ pub(crate) fn with_error(value: f64, error: Option<f64>) -> String {
         return short(Some(value));
     };
     // Rounding first: 0.0996 is 0.10.
-    let place = significant(error, 2).log10().floor() as i32;
-    if (-4..=4).contains(&place) {
-        let decimals = usize::try_from(1 - place).unwrap_or(0);
+    let exponent = |v: f64| significant(v, 2).log10().floor() as i32;
+    let (place, largest) = (exponent(error), exponent(value.abs().max(error)));
+    let decimals = |places: i32| usize::try_from(places).unwrap_or(0);
+    if (-3..=4).contains(&largest) {
+        let decimals = decimals(1 - place);
         format!("{value:.decimals$} ± {error:.decimals$}")
     } else {
-        let unit = 10.0_f64.powi(place);
-        format!("({:.1} ± {:.1})e{place}", value / unit, error / unit)
+        let unit = 10.0_f64.powi(largest);
+        let decimals = decimals(1 + largest - place);
+        format!("({:.decimals$} ± {:.decimals$})e{largest}", value / unit, error / unit)
     }
 }
 
@@ -52,7 +55,8 @@ mod tests {
             (0.24491, Some(0.00577), "0.2449 ± 0.0058"),
             (-1.0, Some(0.0996), "-1.00 ± 0.10"),
             (1234.5, Some(120.0), "1234 ± 120"),
-            (1.234e-5, Some(4.2e-7), "(123.4 ± 4.2)e-7"),
+            (1.234e-5, Some(4.2e-7), "(1.234 ± 0.042)e-5"),
+            (1.7e-3, Some(4.1e-5), "0.001700 ± 0.000041"),
             (0.5, None, "0.500"),
         ] {
             assert_eq!(with_error(value, error), text);
