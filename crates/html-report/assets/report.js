@@ -14,7 +14,8 @@
   const short = (v) => {
     if (v === null || v === undefined || !isFinite(v)) return "–";
     const a = Math.abs(v);
-    return a === 0 ? "0" : a >= 1e-3 && a < 1e5 ? String(+v.toPrecision(3)) : v.toExponential(2);
+    const text = a === 0 ? "0" : a >= 1e-3 && a < 1e3 ? v.toPrecision(3) : a >= 1e3 && a < 1e5 ? String(+v.toPrecision(3)) : v.toExponential(2);
+    return text.replaceAll("-", "−");
   };
   /** Exponent, a multiple of three, that leaves numbers of this size between 1 and 1000. */
   const exponent = (size) => (size > 0 && (size >= 1e4 || size < 1e-1) ? 3 * Math.floor(Math.log10(size) / 3 + 1e-9) : 0);
@@ -74,8 +75,10 @@
   }).join(",")).join("\n") + "\n";
   const exports = (into, name, rows, svg) => {
     into.append(element("span", { class: "gap" }));
-    into.append(button("CSV", () => save(`${name}.csv`, "text/csv", csvText(rows()))));
-    if (svg) into.append(button("SVG", () => save(`${name}.svg`, "image/svg+xml", svg())));
+    const all = [button("CSV", () => save(`${name}.csv`, "text/csv", csvText(rows())))];
+    if (svg) all.push(button("SVG", () => save(`${name}.svg`, "image/svg+xml", svg())));
+    all.forEach((one) => one.classList.add("export"));
+    into.append(...all);
   };
 
   // ---- SVG
@@ -122,11 +125,11 @@
     const ex = o.x.log ? 0 : exponent(Math.max(Math.abs(o.x.low), Math.abs(o.x.high)));
     for (const v of o.y.log ? decades(o.y.low, o.y.high) : ticks(o.y.low, o.y.high, 5)) {
       frame.push(tag("line", { x1: left, x2: left + w, y1: py(v), y2: py(v), stroke: css("--grid") }));
-      frame.push(label(left - 6, py(v) + 4, o.y.log ? power(v) || short(v) : trimmed(v / 10 ** e), { "text-anchor": "end" }));
+      frame.push(label(left - 6, py(v) + 4, o.y.log ? power(v) || trimmed(v) : trimmed(v / 10 ** e), { "text-anchor": "end" }));
     }
     for (const v of o.x.log ? decades(o.x.low, o.x.high) : ticks(o.x.low, o.x.high, Math.min(8, Math.max(3, Math.floor(w / 90))))) {
       frame.push(tag("line", { x1: px(v), x2: px(v), y1: top, y2: top + h, stroke: css("--grid") }));
-      frame.push(label(px(v), top + h + 16, o.x.log ? power(v) || short(v) : trimmed(v / 10 ** ex), { "text-anchor": "middle" }));
+      frame.push(label(px(v), top + h + 16, o.x.log ? power(v) || trimmed(v) : trimmed(v / 10 ** ex), { "text-anchor": "middle" }));
     }
     for (const s of o.series) {
       let path = "", open = false, last = 0;
@@ -221,7 +224,7 @@
         { ...axis, label: o.last ? "time [s]" : undefined, size: 30, space: 50, values: (self, all) => all.map(trimmed) },
         { ...axis, size: 46, label: () => `${o.label} [${o.log ? o.unit : unitOf(o.unit, factor)}]`,
           ...(o.log ? { splits: (self) => decades(self.scales.y.min, self.scales.y.max), filter: (self, all) => all } : {}),
-          values: (self, all) => all.map((v) => (o.log ? power(v) || short(v) : trimmed(v / 10 ** factor))) },
+          values: (self, all) => all.map((v) => (o.log ? power(v) || trimmed(v) : trimmed(v / 10 ** factor))) },
       ],
       series: [{}, ...o.series.map((s) => ({ label: s.name, stroke: css(s.tint) || s.tint, width: s.width ?? 1.25, dash: s.dash, show: s.show ?? true, spanGaps: true, points: { show: false } }))],
       // The time shown, for scripts that drive the page.
@@ -273,7 +276,7 @@
           const i = u.cursor.idx;
           if (i === null || i === undefined) return;
           const of = (line) => short(Math.abs(p.lines.find((l) => l.index === line).y[i] ?? NaN));
-          readout.textContent = `${filters[chosen].name}, t = ${short(p.t[i])} s, ${p.title}: mean error ${short(p.lines[0].y[i])} ${p.unit}, 3σ sample ${of(1)} ${p.unit}, 3σ estimated ${of(2)} ${p.unit}`;
+          readout.textContent = `${filters[chosen].name}, t = ${trimmed(p.t[i])} s, ${p.title}: mean error ${short(p.lines[0].y[i])} ${p.unit}, 3σ sample ${of(1)} ${p.unit}, 3σ estimated ${of(2)} ${p.unit}`;
         },
       }));
       if (zoom && zoom.min > live[0].data[0][0]) live.forEach((u) => u.setScale("x", { min: zoom.min, max: zoom.max }));
@@ -329,7 +332,7 @@
         hover: (u) => {
           const i = u.cursor.idx;
           if (i === null || i === undefined) return;
-          readout.textContent = `t = ${short(times[i])} s, ${name}: ` + filters.filter((f, k) => shown[k]).map((f) => `${f.name} ${short(data[kind][filters.indexOf(f)][i])}`).join(", ");
+          readout.textContent = `t = ${trimmed(times[i])} s, ${name}: ` + filters.filter((f, k) => shown[k]).map((f) => `${f.name} ${short(data[kind][filters.indexOf(f)][i])}`).join(", ");
         },
       }));
       if (zoom && zoom.min > times[0]) live.forEach((u) => u.setScale("x", { min: zoom.min, max: zoom.max }));
