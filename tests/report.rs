@@ -55,7 +55,7 @@ fn between<'a>(text: &'a str, before: &str, after: &str) -> &'a str {
 
 /// A value with its standard error as it is printed, each to two digits of the error.
 fn value_and_error(printed: &str) -> (f64, f64) {
-    let (value, error) = printed.split_once(" ± ").unwrap();
+    let (value, error) = printed.split_once("\u{a0}±\u{a0}").unwrap();
     (value.trim().parse().unwrap(), error.trim().parse().unwrap())
 }
 

@@ -269,7 +269,7 @@
       figure.querySelector(".chosen").textContent = filters[chosen].name;
       const all = panels();
       live = all.map((p, index) => timePlot(plots, {
-        group: `${study.id}-errors`, data: [p.t, ...p.lines.map((l) => l.y)], range: range(p), label: p.title, unit: p.unit, height: 190,
+        group: `${study.id}-errors`, data: [p.t, ...p.lines.map((l) => l.y)], range: range(p), label: p.title, unit: p.unit, height: 175,
         events: study.events, last: index >= all.length - 3 || innerWidth <= 720,
         series: p.lines.map((l) => ({ name: l.name, tint: l.tint, width: l.width, dash: l.dash, show: shown[l.index] })),
         hover: (u) => {

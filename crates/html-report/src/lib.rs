@@ -8,6 +8,7 @@
 
 mod error;
 mod events;
+mod figures;
 mod folder;
 mod number;
 mod page;

@@ -30,11 +30,15 @@ pub(crate) fn with_error(value: f64, error: Option<f64>) -> String {
     let decimals = |places: i32| usize::try_from(places).unwrap_or(0);
     if (-3..=4).contains(&largest) {
         let decimals = decimals(1 - place);
-        format!("{value:.decimals$} ± {error:.decimals$}")
+        format!("{value:.decimals$}\u{a0}±\u{a0}{error:.decimals$}")
     } else {
         let unit = 10.0_f64.powi(largest);
         let decimals = decimals(1 + largest - place);
-        format!("({:.decimals$} ± {:.decimals$})e{largest}", value / unit, error / unit)
+        format!(
+            "({:.decimals$}\u{a0}±\u{a0}{:.decimals$})e{largest}",
+            value / unit,
+            error / unit
+        )
     }
 }
 
@@ -59,7 +63,7 @@ mod tests {
             (1.7e-3, Some(4.1e-5), "0.001700 ± 0.000041"),
             (0.5, None, "0.500"),
         ] {
-            assert_eq!(with_error(value, error), text);
+            assert_eq!(with_error(value, error).replace('\u{a0}', " "), text);
         }
     }
 

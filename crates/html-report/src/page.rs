@@ -1,39 +1,16 @@
 //! The template, filled.
 
 use askama::Template;
-use serde::Serialize;
 use serde_json::Value;
-use statrs::distribution::{ContinuousCDF, StudentsT};
-use stats::{Bounds, mean_chi_square_bounds};
 
 use crate::ReportError;
-use crate::events::{Event, events};
+use crate::figures::{self, Figures};
 use crate::folder::{Folder, Manifest, Row, StudyFacts};
 use crate::number::short;
-use crate::series::{Series, series};
 use crate::verdict::{RunValues, Verdict};
-
-/// Most points of a curve.
-const POINTS: usize = 1000;
-
-/// Most numbers in all curves of a page: some 3 MB.
-const NUMBERS: usize = 400_000;
-
-/// Curves of a filter: three quantities, three axes, three kinds; NEES and NIS.
-const CURVES: usize = 29;
 
 /// Worst runs listed of each filter.
 const WORST: usize = 5;
-
-/// Two-sided probability of bounds and intervals.
-const CONFIDENCE: f64 = 0.95;
-
-/// Column of `runs.csv` and `paired.csv`, what it is, its unit.
-const ERRORS: [(&str, &str, &str); 3] = [
-    ("pos_rmse_m", "position", "m"),
-    ("vel_rmse_m_s", "velocity", "m/s"),
-    ("acc_rmse_m_s2", "acceleration", "m/s²"),
-];
 
 /// Column of `summary.csv`, heading, unit.
 const TABLE: [(&str, &str, &str); 13] = [
@@ -121,53 +98,12 @@ struct WorstRun {
     command: String,
 }
 
-/// What the figures of a study draw.
-#[derive(Serialize)]
-struct Figures {
-    id: String,
-    scenario: String,
-    scored_from_s: f64,
-    duration_s: f64,
-    events: Vec<Event>,
-    filters: Vec<FilterFigures>,
-    reference: String,
-    forest: Vec<Forest>,
-    errors: Vec<[&'static str; 2]>,
-}
-
-#[derive(Serialize)]
-struct FilterFigures {
-    name: String,
-    series: Option<Series>,
-    nees_bounds: Option<[f64; 2]>,
-    nis_bounds: Option<[f64; 2]>,
-    runs: u32,
-    /// RMSE of each run with a result, ascending, for each of `errors`.
-    sorted: Vec<Vec<f64>>,
-}
-
-/// A mean difference with its interval.
-#[derive(Serialize)]
-struct Forest {
-    filter: String,
-    quantity: &'static str,
-    unit: &'static str,
-    runs: u64,
-    mean: f64,
-    low: Option<f64>,
-    high: Option<f64>,
-}
-
 pub(crate) fn render(folder: &Folder) -> Result<String, ReportError> {
     let manifest = &folder.manifest;
-    let filters: usize = manifest.studies.iter().map(|s| s.filters.len()).sum();
-    let points = (NUMBERS / (CURVES * filters.max(1))).clamp(50, POINTS);
     let mut studies = Vec::new();
-    let mut figures = Vec::new();
-    for (index, study) in manifest.studies.iter().enumerate() {
-        let drawn = self::figures(folder, study, index, points)?;
-        studies.push(section(folder, study, &drawn)?);
-        figures.push(drawn);
+    let figures = figures::all(folder)?;
+    for (study, drawn) in manifest.studies.iter().zip(&figures) {
+        studies.push(section(folder, study, drawn)?);
     }
     let worlds: Vec<&str> = manifest.studies.iter().map(|s| s.scenario.as_str()).collect();
     // A label may hold anything: nothing in it must end the script element.
@@ -410,71 +346,6 @@ fn quoted(word: &str) -> String {
     } else {
         format!("'{}'", word.replace('\'', "'\\''"))
     }
-}
-
-fn figures(folder: &Folder, study: &StudyFacts, index: usize, points: usize) -> Result<Figures, ReportError> {
-    let summary = folder.summary(study);
-    let mut filters = Vec::new();
-    for row in &summary {
-        filters.push(filter_figures(folder, study, row, points)?);
-    }
-    let paired = folder.paired(study);
-    Ok(Figures {
-        id: format!("s{index}"),
-        scenario: study.scenario.clone(),
-        scored_from_s: study.scored_from_s,
-        duration_s: study.duration_s,
-        events: events(&study.mission),
-        filters,
-        reference: paired.first().map_or("", |r| r.text("reference")).to_owned(),
-        forest: paired.iter().filter_map(|row| forest(row)).collect(),
-        errors: ERRORS.iter().map(|(_, name, unit)| [*name, *unit]).collect(),
-    })
-}
-
-fn filter_figures(folder: &Folder, study: &StudyFacts, row: &Row, points: usize) -> Result<FilterFigures, ReportError> {
-    let name = row.text("filter");
-    let epochs = folder.epochs(study, name)?;
-    let series = epochs.as_ref().and_then(|epochs| series(epochs, points));
-    let runs = folder.runs(study, name);
-    let finished = runs.iter().filter(|r| r.count("failed") == 0).count();
-    let nis_bounds = match series.as_ref().and_then(|s| s.residual_rows) {
-        Some(rows) if finished > 0 => Some(mean_chi_square_bounds(finished, rows, CONFIDENCE)?),
-        _ => None,
-    };
-    let sorted = |(column, ..): &(&str, &str, &str)| {
-        let mut values: Vec<f64> = runs.iter().filter_map(|r| r.number(column)).collect();
-        values.sort_by(f64::total_cmp);
-        values
-    };
-    Ok(FilterFigures {
-        name: name.to_owned(),
-        nees_bounds: Option::zip(row.number("nees_low"), row.number("nees_high")).map(|(low, high)| [low, high]),
-        nis_bounds: nis_bounds.map(|Bounds { low, high }| [low, high]),
-        series,
-        runs: study.runs,
-        sorted: ERRORS.iter().map(sorted).collect(),
-    })
-}
-
-/// A row of `paired.csv` with the interval of Student's t.
-fn forest(row: &Row) -> Option<Forest> {
-    let (_, quantity, unit) = *ERRORS.iter().find(|(column, ..)| *column == row.text("quantity"))?;
-    let mean = row.number("mean_difference")?;
-    let runs = row.count("runs");
-    let half = row.number("standard_error").and_then(|error| {
-        let t = StudentsT::new(0.0, 1.0, runs.checked_sub(1)? as f64).ok()?;
-        Some(error * t.inverse_cdf(0.5 * (1.0 + CONFIDENCE)))
-    });
-    Some(Forest {
-        filter: row.text("filter").to_owned(),
-        quantity,
-        unit,
-        runs,
-        mean,
-        low: half.map(|h| mean - h),
-        high: half.map(|h| mean + h),
-    })
 }
 
 /// Whatever tells this study from any other.

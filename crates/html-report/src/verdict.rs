@@ -168,7 +168,7 @@ mod tests {
         assert_eq!(verdict.headline(), "a has the least position RMSE, 1.00\u{a0}m");
         assert_eq!(
             verdict.sentences(),
-            ["The next, b, is worse by 2.00 ± 0.58\u{a0}m (mean ± standard error, paired over 3 runs)."]
+            ["The next, b, is worse by 2.00\u{a0}±\u{a0}0.58\u{a0}m (mean ± standard error, paired over 3 runs)."]
         );
         let verdict = Verdict::new(&[clear, near, best]).unwrap().unwrap();
         assert_eq!(
