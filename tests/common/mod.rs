@@ -56,8 +56,8 @@ pub fn command(arguments: &[&str]) -> Command {
     });
     let mut command = Command::new(program);
     command.args(arguments).arg("--quiet").current_dir(root());
-    // A merge takes the FMUs that its parts were made with.
-    if arguments.first() != Some(&"merge") {
+    // A merge takes the FMUs that its parts were made with, a report none.
+    if !matches!(arguments.first(), Some(&"merge" | &"report")) {
         command.arg("--no-build");
     }
     command

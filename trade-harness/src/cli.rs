@@ -29,6 +29,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// Put the parts of a study together that 'compare --shard' has done
     Merge(MergeArgs),
+    /// Write the HTML page of a finished study again, from its files
+    Report(ReportArgs),
     /// Search for every filter's best parameters, then compare the filters at their best
     Tune(TuneArgs),
     /// Write one run out, sample by sample
@@ -267,6 +269,9 @@ pub struct CompareArgs {
     /// End with exit code 1 when the scenario as published misses one of its bounds
     #[arg(long, conflicts_with_all = ["assignments", "variations", "truth"])]
     pub check: bool,
+    /// Do not write report.html
+    #[arg(long)]
+    pub no_report: bool,
     /// Which filters, which parameters.
     #[command(flatten)]
     pub study: StudyArgs,
@@ -341,6 +346,17 @@ pub struct MergeArgs {
     #[arg(long)]
     pub jobs: Option<std::num::NonZeroUsize>,
     /// No progress, only results and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// `report`.
+#[derive(Debug, Args)]
+pub struct ReportArgs {
+    /// Folder of a finished study; report.html goes there
+    #[arg(value_name = "DIR")]
+    pub dir: PathBuf,
+    /// Say nothing of what was written
     #[arg(long, short)]
     pub quiet: bool,
 }

@@ -195,6 +195,9 @@ pub enum HarnessError {
     /// A manifest that cannot be put into JSON.
     #[error("cannot form the manifest: {0}")]
     Json(#[from] serde_json::Error),
+    /// A folder of which no page can be made.
+    #[error(transparent)]
+    Report(#[from] html_report::ReportError),
     /// A `.fmu` that cannot be put together.
     #[error("cannot form {}: {source}", path.display())]
     Zip {

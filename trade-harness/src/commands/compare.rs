@@ -4,7 +4,7 @@ use std::io::Write;
 
 use study::{Engine, Journal, Plan, Workers, rehearse};
 
-use super::finished::finish;
+use super::finished::{Finished, finish};
 use super::kept::{KEPT, Kept, shard_folder};
 use super::progress::{run_watched, shard_watched};
 use super::shared::{Verdict, cast, end_when_asked, models, note, plan_of, say, scratch};
@@ -88,7 +88,13 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
             quiet,
         )?);
     }
-    let missed = finish(folder, &studies, &results, &workers, &models, &plan, out)?;
+    let finished = Finished {
+        studies: &studies,
+        results: &results,
+        workers: &workers,
+        page: !args.no_report,
+    };
+    let missed = finish(folder, finished, &models, &plan, out)?;
     Ok(if missed && args.check {
         Verdict::BoundsMissed
     } else {

@@ -2,29 +2,46 @@
 
 use std::io::Write;
 
-use study::{Models, Plan, Study, StudyResult, Summary, Workers};
+use study::{Models, Plan, Study, StudyResult, Summary, Workers, chain};
 
 use super::files::Report;
-use super::shared::{closing, say};
+use super::report::write_page;
+use super::shared::{closing, note, say};
 use crate::HarnessError;
 use crate::claims;
 use crate::output::OutputFolder;
 use crate::report::table;
 use crate::store::StudyFolder;
 
+/// Studies that are over.
+#[derive(Clone, Copy)]
+pub(super) struct Finished<'a> {
+    pub(super) studies: &'a [Study],
+    pub(super) results: &'a [StudyResult],
+    /// Those that have made the runs, where this process has not.
+    pub(super) workers: &'a [Workers],
+    /// Whether the folder gets its HTML page.
+    pub(super) page: bool,
+}
+
 /// Writes and prints what finished studies found; returns whether a bound was missed.
 pub(super) fn finish(
     folder: StudyFolder,
-    studies: &[Study],
-    results: &[StudyResult],
-    workers: &[Workers],
+    finished: Finished<'_>,
     models: &Models,
     plan: &Plan,
     out: &mut dyn Write,
 ) -> Result<bool, HarnessError> {
-    let report = Report::new(studies, results, workers);
+    let report = Report::new(finished.studies, finished.results, finished.workers);
     let output = folder.output().clone();
-    let files = report.write(&output, models, plan, 0, Vec::new(), Some(folder.identity()))?;
+    let mut files = report.write(&output, models, plan, 0, Vec::new(), Some(folder.identity()))?;
+    if finished.page {
+        match write_page(&output) {
+            Ok(name) => files.push(name),
+            // The results are worth more than their page.
+            Err(error) => note(&format!("note: there is no report.html: {}", chain(&error))),
+        }
+    }
     folder.complete()?;
     // What a source claims is claimed of its own world, not of a changed one.
     let as_published = plan.assignments.is_empty() && plan.variations.is_empty() && plan.truth.is_none();

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use study::{Engine, Journal, Models, Plan, Study};
 
-use super::finished::finish;
+use super::finished::{Finished, finish};
 use super::kept::{KEPT, Kept, SHARDS};
 use super::progress::run_watched;
 use super::shared::{Verdict, cast, scratch};
@@ -64,7 +64,13 @@ pub(super) fn merge(args: &MergeArgs, out: &mut dyn Write) -> Result<Verdict, Ha
         run_watched(study, engine, args.quiet)
     });
     let results: Result<Vec<_>, HarnessError> = results.collect();
-    finish(folder, &studies, &results?, &[], &models, &plan, out)?;
+    let finished = Finished {
+        studies: &studies,
+        results: &results?,
+        workers: &[],
+        page: true,
+    };
+    finish(folder, finished, &models, &plan, out)?;
     let shards = args.dir.join(SHARDS);
     fs::remove_dir_all(&shards).map_err(|source| HarnessError::Write { path: shards, source })?;
     Ok(Verdict::Done)

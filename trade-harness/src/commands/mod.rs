@@ -12,6 +12,7 @@ mod mission;
 mod pack;
 mod progress;
 mod replay;
+mod report;
 mod reproduce;
 mod shared;
 mod tune;
@@ -42,6 +43,7 @@ pub fn execute(cli: Cli) -> ExitCode {
         Command::Pack(args) => pack::pack(&args, &mut out),
         Command::Compare(args) => compare::compare(&args, &mut out),
         Command::Merge(args) => merge::merge(&args, &mut out),
+        Command::Report(args) => report::report(&args, &mut out),
         Command::Tune(args) => tune::tune(&args, &mut out),
         Command::Replay(args) => replay::replay(&args, &mut out),
         Command::Reproduce(args) => reproduce::reproduce(&args, &mut out),

@@ -1,0 +1,511 @@
+"use strict";
+(() => {
+  const studies = JSON.parse(document.getElementById("data").textContent);
+  const root = document.documentElement;
+  const prefersDark = matchMedia("(prefers-color-scheme: dark)");
+  const css = (name) => getComputedStyle(root).getPropertyValue(name).trim();
+  const colour = (index) => css(`--f${index % 8}`);
+  // Filters beyond the eighth repeat a colour with another dash.
+  const dash = (index) => [[], [8, 3], [2, 3]][Math.floor(index / 8) % 3];
+  const font = "12px Helvetica Neue, Helvetica, Arial, Liberation Sans, sans-serif";
+
+  // ---- numbers
+  const superscript = (n) => String(n).replace(/[-0-9]/g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[+c]));
+  const short = (v) => {
+    if (v === null || v === undefined || !isFinite(v)) return "–";
+    const a = Math.abs(v);
+    const text = a === 0 ? "0" : a >= 1e-3 && a < 1e3 ? v.toPrecision(3) : a >= 1e3 && a < 1e5 ? String(+v.toPrecision(3)) : v.toExponential(2);
+    return text.replaceAll("-", "−");
+  };
+  /** Exponent, a multiple of three, that leaves numbers of this size between 1 and 1000. */
+  const exponent = (size) => (size > 0 && (size >= 1e4 || size < 1e-1) ? 3 * Math.floor(Math.log10(size) / 3 + 1e-9) : 0);
+  const unitOf = (unit, e) => (e ? `10${superscript(e)} ${unit}` : unit);
+  const trimmed = (v) => String(+v.toPrecision(6)).replace("-", "−");
+  const power = (v) => {
+    const e = Math.log10(v);
+    return Math.abs(e - Math.round(e)) < 1e-9 ? (Math.abs(e) < 3.5 ? trimmed(v) : `10${superscript(Math.round(e))}`) : "";
+  };
+
+  // ---- small pieces of the page
+  const element = (name, attributes = {}, text = "") => {
+    const made = document.createElement(name);
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+    made.textContent = text;
+    return made;
+  };
+  const button = (text, action) => {
+    const made = element("button", { type: "button" }, text);
+    made.addEventListener("click", () => action(made));
+    return made;
+  };
+  const tabs = (into, names, chosen, action) => {
+    const list = element("span", { role: "tablist" });
+    const all = names.map((name, index) => {
+      const tab = button(name, () => {
+        all.forEach((other) => other.setAttribute("aria-selected", String(other === tab)));
+        action(index);
+      });
+      tab.setAttribute("role", "tab");
+      tab.setAttribute("aria-selected", String(index === chosen));
+      list.append(tab, " ");
+      return tab;
+    });
+    into.append(list);
+  };
+  const toggle = (into, name, shown, tint, action) => {
+    const made = button("", () => {
+      const now = made.getAttribute("aria-pressed") !== "true";
+      made.setAttribute("aria-pressed", String(now));
+      action(now);
+    });
+    made.setAttribute("aria-pressed", String(shown));
+    const key = element("i", { class: "key" });
+    key.dataset.tint = tint;
+    made.append(key, name);
+    into.append(made);
+  };
+  const save = (name, type, text) => {
+    const link = element("a", { download: name, href: URL.createObjectURL(new Blob([text], { type })) });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  };
+  const csvText = (rows) => rows.map((row) => row.map((v) => {
+    const text = v === null || v === undefined ? "" : String(v);
+    return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  }).join(",")).join("\n") + "\n";
+  const exports = (into, name, rows, svg) => {
+    into.append(element("span", { class: "gap" }));
+    const all = [button("CSV", () => save(`${name}.csv`, "text/csv", csvText(rows())))];
+    if (svg) all.push(button("SVG", () => save(`${name}.svg`, "image/svg+xml", svg())));
+    all.forEach((one) => one.classList.add("export"));
+    into.append(...all);
+  };
+
+  // ---- SVG
+  const escaped = (text) => String(text).replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
+  const tag = (name, attributes, inner = "") =>
+    `<${name}${Object.entries(attributes).map(([k, v]) => ` ${k}="${escaped(v)}"`).join("")}>${inner}</${name}>`;
+  const label = (x, y, text, more = {}) => tag("text", { x: x.toFixed(1), y: y.toFixed(1), fill: css("--ink"), ...more }, escaped(text));
+  const picture = (width, height, inner) =>
+    tag("svg", { xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${width} ${height}`, width, height, role: "img",
+      "font-family": "Helvetica Neue, Helvetica, Arial, Liberation Sans, sans-serif", "font-size": 12 }, inner);
+  const ticks = (low, high, count) => {
+    const raw = (high - low) / count;
+    const size = 10 ** Math.floor(Math.log10(raw));
+    const step = [1, 2, 5, 10].map((m) => m * size).find((s) => s >= raw) ?? raw;
+    const found = [];
+    for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) found.push(k * step);
+    return found;
+  };
+  /** Places of a logarithmic axis: powers of ten, or also twice and five times these where there are few. */
+  const decades = (low, high) => {
+    const found = [];
+    for (let e = Math.floor(Math.log10(low)); e <= Math.log10(high); e += 1) {
+      for (const m of high / low > 300 ? [1] : [1, 2, 5]) found.push(+`${m}e${e}`);
+    }
+    return found.filter((v) => v >= low * (1 - 1e-9) && v <= high * (1 + 1e-9));
+  };
+
+  /**
+   * One panel of lines, drawn at an offset.
+   * series: {x, y, tint, width, dash, step}; x and y: {low, high, log, label}; shades: {from, to, tint}; bands: {low, high, tint}.
+   */
+  const panel = (o) => {
+    const left = 62, bottom = 40, top = 22, right = 12;
+    const w = o.width - left - right, h = o.height - top - bottom;
+    const scale = (axis, v) => (axis.log ? Math.log(v / axis.low) / Math.log(axis.high / axis.low) : (v - axis.low) / (axis.high - axis.low));
+    const px = (v) => left + w * scale(o.x, v);
+    const py = (v) => top + h * (1 - scale(o.y, v));
+    const clip = `clip${Math.random().toString(36).slice(2)}`;
+    const inside = [];
+    for (const s of o.shades ?? []) inside.push(tag("rect", { x: px(s.from), width: Math.max(px(s.to) - px(s.from), 1), y: top, height: h, fill: s.tint }));
+    for (const b of o.bands ?? []) inside.push(tag("rect", { x: left, width: w, y: py(b.high), height: Math.max(py(b.low) - py(b.high), 1), fill: b.tint }));
+    const frame = [];
+    const e = o.y.log ? 0 : exponent(Math.max(Math.abs(o.y.low), Math.abs(o.y.high)));
+    const ex = o.x.log ? 0 : exponent(Math.max(Math.abs(o.x.low), Math.abs(o.x.high)));
+    for (const v of o.y.log ? decades(o.y.low, o.y.high) : ticks(o.y.low, o.y.high, 5)) {
+      frame.push(tag("line", { x1: left, x2: left + w, y1: py(v), y2: py(v), stroke: css("--grid") }));
+      frame.push(label(left - 6, py(v) + 4, o.y.log ? power(v) || trimmed(v) : trimmed(v / 10 ** e), { "text-anchor": "end" }));
+    }
+    for (const v of o.x.log ? decades(o.x.low, o.x.high) : ticks(o.x.low, o.x.high, Math.min(8, Math.max(3, Math.floor(w / 90))))) {
+      frame.push(tag("line", { x1: px(v), x2: px(v), y1: top, y2: top + h, stroke: css("--grid") }));
+      frame.push(label(px(v), top + h + 16, o.x.log ? power(v) || trimmed(v) : trimmed(v / 10 ** ex), { "text-anchor": "middle" }));
+    }
+    for (const s of o.series) {
+      let path = "", open = false, last = 0;
+      s.x.forEach((x, i) => {
+        const y = s.y[i];
+        if (y === null || y === undefined || (o.y.log && y <= 0) || (o.x.log && x <= 0)) return;
+        const at = py(y);
+        path += !open ? `M${px(x).toFixed(1)} ${at.toFixed(1)}` : s.step ? `H${px(x).toFixed(1)}V${at.toFixed(1)}` : `L${px(x).toFixed(1)} ${at.toFixed(1)}`;
+        open = true;
+        last = at;
+      });
+      if (open) inside.push(tag("path", { d: s.step ? `${path}H${left + w}` : path, fill: "none", stroke: s.tint, "stroke-width": s.width ?? 1.3, "stroke-dasharray": (s.dash ?? []).join(" ") || "none", "data-last": last.toFixed(1) }));
+    }
+    const named = (axis, factor) => axis.label + (axis.unit ? ` [${unitOf(axis.unit, factor)}]` : "");
+    return tag("g", { transform: `translate(${o.left ?? 0} ${o.top ?? 0})` },
+      tag("clipPath", { id: clip }, tag("rect", { x: left, y: top, width: w, height: h })) + frame.join("") +
+      tag("g", { "clip-path": `url(#${clip})` }, inside.join("")) +
+      tag("path", { d: `M${left} ${top}V${top + h}H${left + w}`, fill: "none", stroke: css("--ink") }) +
+      label(left, 14, o.title ?? "", { "font-weight": 600 }) +
+      label(left + w / 2, o.height - 6, named(o.x, ex), { "text-anchor": "middle" }) +
+      label(14, top + h / 2, named(o.y, e), { "text-anchor": "middle", transform: `rotate(-90 14 ${top + h / 2})` }));
+  };
+  const key = (entries, width) => {
+    let x = 62, y = 12;
+    const inner = entries.map((entry) => {
+      const length = 44 + 6.6 * entry.name.length;
+      if (x + length > width) [x, y] = [62, y + 18];
+      const made = tag("line", { x1: x, x2: x + 22, y1: y, y2: y, stroke: entry.tint, "stroke-width": 2, "stroke-dasharray": (entry.dash ?? []).join(" ") || "none" }) + label(x + 28, y + 4, entry.name);
+      x += length;
+      return made;
+    });
+    return { inner: inner.join(""), height: y + 12 };
+  };
+
+  // ---- plots over time
+  let made = [];
+  const extent = (arrays, keep) => {
+    let low = Infinity, high = -Infinity;
+    for (const array of arrays) array.forEach((v, i) => {
+      if (v !== null && v !== undefined && isFinite(v) && keep(i)) { low = Math.min(low, v); high = Math.max(high, v); }
+    });
+    return low <= high ? [low, high] : null;
+  };
+  const padded = ([low, high], log) => {
+    if (log) return [low / 1.3, high * 1.3];
+    const pad = 0.06 * (high - low) || Math.abs(high) || 1;
+    return [low - pad, high + pad];
+  };
+
+  /** A plot whose time is zoomed together with all others of its group. */
+  const timePlot = (into, o) => {
+    const holder = element("div");
+    into.append(holder);
+    const range = o.range ?? [o.log ? 0.1 : -1, 1];
+    const whole = [o.data[0][0], o.data[0][o.data[0].length - 1]];
+    // Before the first drawing the scale of time is not known.
+    const isWhole = (u) => (u.scales.x.min ?? null) === null || (u.scales.x.min <= whole[0] && u.scales.x.max >= whole[1]);
+    let factor = exponent(Math.max(...range.map(Math.abs)));
+    const axis = { stroke: css("--ink"), font, labelFont: font, labelSize: 20, labelGap: 0, grid: { stroke: css("--grid"), width: 1 }, ticks: { stroke: css("--rule"), size: 4, width: 1 } };
+    const shade = (u) => {
+      const { left, top, width, height } = u.bbox;
+      const ctx = u.ctx;
+      ctx.save();
+      ctx.beginPath();
+      ctx.rect(left, top, width, height);
+      ctx.clip();
+      for (const e of o.events) {
+        const from = u.valToPos(e.from_s, "x", true), to = u.valToPos(e.to_s, "x", true);
+        ctx.fillStyle = css(e.kind === "burn" ? "--burn" : "--vent");
+        ctx.fillRect(from, top, Math.max(to - from, devicePixelRatio), height);
+      }
+      const bounds = o.bounds?.(u);
+      if (bounds) {
+        const low = u.valToPos(bounds[0], "y", true), high = u.valToPos(bounds[1], "y", true);
+        ctx.fillStyle = css("--band");
+        ctx.fillRect(left, high, width, Math.max(low - high, 2 * devicePixelRatio));
+      }
+      ctx.restore();
+    };
+    const u = new uPlot({
+      width: Math.max(holder.clientWidth, 200), height: o.height, title: "", legend: { show: false }, padding: [8, 8, 0, 0],
+      cursor: { y: false, sync: { key: o.group, setSeries: false, scales: ["x", null] }, drag: { x: true, y: false }, points: { size: 5 } },
+      scales: {
+        x: { time: false },
+        y: { distr: o.log ? 3 : 1, range: (self, low, high) => {
+          const chosen = isWhole(self) || low === null || high === null ? range : padded([low, high], o.log);
+          factor = exponent(Math.max(...chosen.map(Math.abs)));
+          return chosen;
+        } },
+      },
+      axes: [
+        { ...axis, label: o.last ? "time [s]" : undefined, size: 30, space: 50, values: (self, all) => all.map(trimmed) },
+        { ...axis, size: 46, label: () => `${o.label} [${o.log ? o.unit : unitOf(o.unit, factor)}]`,
+          ...(o.log ? { splits: (self) => decades(self.scales.y.min, self.scales.y.max), filter: (self, all) => all } : {}),
+          values: (self, all) => all.map((v) => (o.log ? power(v) || trimmed(v) : trimmed(v / 10 ** factor))) },
+      ],
+      series: [{}, ...o.series.map((s) => ({ label: s.name, stroke: css(s.tint) || s.tint, width: s.width ?? 1.25, dash: s.dash, show: s.show ?? true, spanGaps: true, points: { show: false } }))],
+      // The time shown, for scripts that drive the page.
+      hooks: { setScale: [(self, scale) => { if (scale === "x") [holder.dataset.from, holder.dataset.to] = [self.scales.x.min, self.scales.x.max]; }], drawAxes: [shade], setCursor: [(self) => self.cursor.event && o.hover(self)] },
+    }, o.data, holder);
+    made.push({ u, holder });
+    return u;
+  };
+  const resize = () => made.forEach(({ u, holder }) => {
+    if (holder.isConnected && Math.abs(holder.clientWidth - u.width) > 2) u.setSize({ width: Math.max(holder.clientWidth, 200), height: u.height });
+  });
+
+  // ---- the figures of one study; each returns what draws it anew
+  const LINES = [
+    { name: "mean error", tint: "--f6", width: 1, of: [["mean", 1]] },
+    { name: "3σ sample", tint: "--f0", of: [["sample", 3], ["sample", -3]] },
+    { name: "3σ estimated", tint: "--f1", dash: [6, 3], of: [["estimated", 3], ["estimated", -3]] },
+  ];
+
+  const errors = (figure, study) => {
+    const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools"), readout = figure.querySelector(".readout");
+    const filters = study.filters.filter((f) => f.series);
+    let chosen = 0;
+    const shown = LINES.map(() => true);
+    let live = [];
+    const panels = () => {
+      const { t, quantities } = filters[chosen].series;
+      return quantities.flatMap((q) => q.axes.map((a) => {
+        const lines = LINES.flatMap((line, index) => line.of.map(([kind, factor]) => ({ ...line, index, y: a[kind].map((v) => (v === null ? null : factor * v)) })));
+        return { t, title: `${q.name}, ${a.axis}`, unit: q.unit, lines };
+      }));
+    };
+    const range = (p) => {
+      const arrays = p.lines.filter((l) => shown[l.index]).map((l) => l.y);
+      return padded(extent(arrays, (i) => p.t[i] >= study.scored_from_s) ?? extent(arrays, () => true) ?? [-1, 1]);
+    };
+    const draw = () => {
+      const zoom = live[0]?.scales.x;
+      live.forEach((u) => u.destroy());
+      made = made.filter(({ u }) => !live.includes(u));
+      plots.replaceChildren();
+      figure.querySelector(".chosen").textContent = filters[chosen].name;
+      const all = panels();
+      live = all.map((p, index) => timePlot(plots, {
+        group: `${study.id}-errors`, data: [p.t, ...p.lines.map((l) => l.y)], range: range(p), label: p.title, unit: p.unit, height: 175,
+        events: study.events, last: index >= all.length - 3 || innerWidth <= 720,
+        series: p.lines.map((l) => ({ name: l.name, tint: l.tint, width: l.width, dash: l.dash, show: shown[l.index] })),
+        hover: (u) => {
+          const i = u.cursor.idx;
+          if (i === null || i === undefined) return;
+          const of = (line) => short(Math.abs(p.lines.find((l) => l.index === line).y[i] ?? NaN));
+          readout.textContent = `${filters[chosen].name}, t = ${trimmed(p.t[i])} s, ${p.title}: mean error ${short(p.lines[0].y[i])} ${p.unit}, 3σ sample ${of(1)} ${p.unit}, 3σ estimated ${of(2)} ${p.unit}`;
+        },
+      }));
+      if (zoom && zoom.min > live[0].data[0][0]) live.forEach((u) => u.setScale("x", { min: zoom.min, max: zoom.max }));
+    };
+    if (filters.length === 0) return () => {};
+    tabs(tools, filters.map((f) => f.name), 0, (index) => { chosen = index; draw(); });
+    LINES.forEach((line, index) => toggle(tools, line.name, true, line.tint, (on) => { shown[index] = on; draw(); }));
+    exports(tools, `${study.scenario}_error`, () => {
+      const all = panels();
+      const head = all.flatMap((p) => ["mean", "3 sigma sample", "3 sigma estimated"].map((n) => `${n} ${p.title} [${p.unit}]`));
+      return [["filter", "time [s]", ...head], ...all[0].t.map((t, i) => [filters[chosen].name, t, ...all.flatMap((p) => [0, 1, 3].map((l) => p.lines[l].y[i]))])];
+    }, () => {
+      const all = panels(), width = 380, height = 230;
+      const legend = key([{ name: filters[chosen].name, tint: "none" }, ...LINES.map((l) => ({ ...l, tint: css(l.tint) }))], 3 * width);
+      const x = live[0].scales.x;
+      const inner = all.map((p, i) => {
+        const [low, high] = [live[i].scales.y.min, live[i].scales.y.max];
+        return panel({ width, height, left: (i % 3) * width, top: legend.height + Math.floor(i / 3) * height, title: p.title,
+          x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low, high, label: "error", unit: p.unit },
+          shades: study.events.map((e) => ({ from: e.from_s, to: e.to_s, tint: css(e.kind === "burn" ? "--burn" : "--vent") })),
+          series: p.lines.filter((l) => shown[l.index]).map((l) => ({ x: p.t, y: l.y, tint: css(l.tint), width: l.width, dash: l.dash })) });
+      });
+      return picture(3 * width, legend.height + Math.ceil(all.length / 3) * height, legend.inner + inner.join(""));
+    });
+    return draw;
+  };
+
+  const consistency = (figure, study) => {
+    const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools"), readout = figure.querySelector(".readout");
+    const filters = study.filters.map((f, index) => ({ ...f, index })).filter((f) => f.series && f.series.nees.length);
+    if (filters.length === 0) return () => {};
+    const shown = filters.map(() => true);
+    let live = [];
+    const kinds = [["nees", "NEES / states"], ["nis", "NIS / rows"]];
+    const times = [...new Set(filters.flatMap((f) => f.series.t))].sort((a, b) => a - b);
+    const aligned = (f, kind) => {
+      if (f.series.t.length === times.length) return f.series[kind];
+      const at = new Map(f.series.t.map((t, i) => [t, f.series[kind][i]]));
+      return times.map((t) => at.get(t) ?? null);
+    };
+    const data = Object.fromEntries(kinds.map(([kind]) => [kind, filters.map((f) => aligned(f, kind).map((v) => (v > 0 ? v : null)))]));
+    const bounds = (kind) => filters.find((f, i) => shown[i] && f[`${kind}_bounds`])?.[`${kind}_bounds`];
+    const range = (kind) => padded(extent([...data[kind].filter((d, i) => shown[i]), bounds(kind) ?? [1]].map((a) => a), (i) => times.length < 3 || i < 2 || times[i] >= study.scored_from_s) ?? [0.1, 10], true);
+    const draw = () => {
+      const zoom = live[0]?.scales.x;
+      live.forEach((u) => u.destroy());
+      made = made.filter(({ u }) => !live.includes(u));
+      plots.replaceChildren();
+      live = kinds.map(([kind, name], index) => timePlot(plots, {
+        group: `${study.id}-consistency`, data: [times, ...data[kind]], range: range(kind), log: true, label: name, unit: "1", height: 230,
+        events: study.events, last: index === 1, bounds: () => bounds(kind),
+        series: filters.map((f, i) => ({ name: f.name, tint: colour(f.index), dash: dash(f.index), width: 1.1, show: shown[i] })),
+        hover: (u) => {
+          const i = u.cursor.idx;
+          if (i === null || i === undefined) return;
+          readout.textContent = `t = ${trimmed(times[i])} s, ${name}: ` + filters.filter((f, k) => shown[k]).map((f) => `${f.name} ${short(data[kind][filters.indexOf(f)][i])}`).join(", ");
+        },
+      }));
+      if (zoom && zoom.min > times[0]) live.forEach((u) => u.setScale("x", { min: zoom.min, max: zoom.max }));
+    };
+    filters.forEach((f, i) => toggle(tools, f.name, true, `--f${f.index % 8}`, (on) => { shown[i] = on; draw(); }));
+    exports(tools, `${study.scenario}_consistency`,
+      () => [["time [s]", ...kinds.flatMap(([kind]) => filters.map((f) => `${kind} ${f.name}`))], ...times.map((t, i) => [t, ...kinds.flatMap(([kind]) => data[kind].map((d) => d[i]))])],
+      () => {
+        const width = 900, height = 280;
+        const legend = key(filters.filter((f, i) => shown[i]).map((f) => ({ name: f.name, tint: colour(f.index), dash: dash(f.index) })), width);
+        const inner = kinds.map(([kind, name], k) => {
+          const b = bounds(kind), { x, y } = live[k].scales;
+          return panel({ width, height, top: legend.height + k * height, x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low: y.min, high: y.max, log: true, label: name },
+            bands: b ? [{ low: b[0], high: b[1], tint: css("--band") }] : [],
+            series: filters.map((f, i) => ({ x: times, y: data[kind][i], tint: colour(f.index), dash: dash(f.index) })).filter((s, i) => shown[i]) });
+        });
+        return picture(width, legend.height + 2 * height, legend.inner + inner.join(""));
+      });
+    return draw;
+  };
+
+  const forest = (figure, study) => {
+    const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools");
+    const quantities = study.errors.filter(([name]) => study.forest.some((f) => f.quantity === name));
+    if (quantities.length === 0) {
+      plots.textContent = "There is no pair of filters with results.";
+      return () => {};
+    }
+    figure.querySelector(".reference").textContent = study.reference;
+    let chosen = 0;
+    const rows = () => study.forest.filter((f) => f.quantity === quantities[chosen][0]);
+    const svg = () => {
+      const all = rows(), unit = quantities[chosen][1];
+      const width = Math.max(330, Math.min(plots.clientWidth || 900, 1000)), line = 30, top = 14;
+      const left = Math.min(30 + 7 * Math.max(...all.map((f) => f.filter.length)), 0.38 * width), right = width > 600 ? 190 : 14;
+      const height = top + line * all.length + 46;
+      const ends = all.flatMap((f) => [f.low ?? f.mean, f.high ?? f.mean, f.mean]);
+      const largest = Math.max(...ends.map(Math.abs)) || 1;
+      const half = all.map((f) => Math.abs(f.mean)).filter((m) => m > 0);
+      const least = half.length ? Math.min(...half) : largest;
+      // Differences of several orders of magnitude: linear about zero, logarithmic beyond.
+      const wide = largest / least > 50;
+      const to = wide ? (v) => Math.asinh(v / (0.5 * least)) : (v) => v;
+      const low = Math.min(0, ...ends.map(to)), high = Math.max(0, ...ends.map(to));
+      const pad = 0.05 * (high - low);
+      const px = (v) => left + ((to(v) - low + pad) / (high - low + 2 * pad)) * (width - left - right);
+      const e = wide ? 0 : exponent(largest);
+      figure.querySelector(".chosen").textContent = quantities[chosen][0];
+      figure.querySelector(".axis-note").textContent = wide ? "The axis is linear about zero and logarithmic beyond, since the differences span orders of magnitude." : "";
+      let at = ticks(low - pad, high + pad, width > 600 ? 7 : 4);
+      if (wide) {
+        const candidates = [0];
+        for (let k = Math.floor(Math.log10(least)); k <= Math.log10(largest) + 0.5; k += 1) candidates.push(10 ** k, -(10 ** k));
+        at = [];
+        for (const v of candidates) {
+          const x = px(v);
+          if (x >= left && x <= width - right && at.every((other) => Math.abs(px(other) - x) > 44)) at.push(v);
+        }
+      }
+      const name = (v) => (wide ? (v === 0 ? "0" : (v < 0 ? "−" : "") + (power(Math.abs(v)) || short(Math.abs(v)))) : trimmed(v / 10 ** e));
+      const base = top + line * all.length;
+      const grid = at.map((v) => tag("line", { x1: px(v), x2: px(v), y1: top, y2: base, stroke: css("--grid") }) + label(px(v), base + 16, name(v), { "text-anchor": "middle" }));
+      const marks = all.map((f, i) => {
+        const y = top + line * (i + 0.5), index = study.filters.findIndex((o) => o.name === f.filter), tint = colour(index);
+        const interval = f.low === null ? "" : tag("line", { x1: px(f.low), x2: px(f.high), y1: y, y2: y, stroke: tint, "stroke-width": 2 }) +
+          [f.low, f.high].map((v) => tag("line", { x1: px(v), x2: px(v), y1: y - 5, y2: y + 5, stroke: tint, "stroke-width": 2 })).join("");
+        const text = `${short(f.mean)}${f.low === null ? "" : ` (${short(f.low)}, ${short(f.high)})`}`;
+        return tag("g", {}, tag("title", {}, escaped(`${f.filter} minus ${study.reference}: ${text} ${unit}, ${f.runs} runs`)) +
+          tag("rect", { x: 0, y: y - line / 2, width, height: line, fill: "transparent" }) +
+          label(left - 12, y + 4, f.filter, { "text-anchor": "end" }) + interval +
+          tag("circle", { cx: px(f.mean), cy: y, r: 4.5, fill: tint }) + (width > 600 ? label(width - right + 14, y + 4, text, { fill: css("--soft") }) : ""));
+      });
+      return picture(width, height, grid.join("") + tag("line", { x1: px(0), x2: px(0), y1: top, y2: base, stroke: css("--ink") }) + marks.join("") +
+        tag("path", { d: `M${left} ${base}H${width - right}`, stroke: css("--ink") }) +
+        label((left + width - right) / 2, base + 38, `difference of ${quantities[chosen][0]} RMSE [${unitOf(unit, e)}]`, { "text-anchor": "middle" }));
+    };
+    const draw = () => { plots.innerHTML = svg(); };
+    tabs(tools, quantities.map(([name]) => name), 0, (index) => { chosen = index; draw(); });
+    exports(tools, `${study.scenario}_paired`, () => [["filter", "reference", "quantity", "unit", "runs", "mean difference", "low", "high"], ...rows().map((f) => [f.filter, study.reference, f.quantity, f.unit, f.runs, f.mean, f.low, f.high])], svg);
+    return draw;
+  };
+
+  const cdf = (figure, study) => {
+    const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools"), readout = figure.querySelector(".readout");
+    const quantities = study.errors.map((e, index) => ({ name: e[0], unit: e[1], index })).filter((q) => study.filters.some((f) => f.sorted[q.index].length));
+    if (quantities.length === 0) {
+      plots.textContent = "There is no run with a result.";
+      return () => {};
+    }
+    let chosen = 0;
+    const shown = study.filters.map(() => true);
+    const axis = () => {
+      const q = quantities[chosen];
+      const all = study.filters.filter((f, i) => shown[i]).flatMap((f) => f.sorted[q.index]).filter((v) => v > 0);
+      const [low, high] = all.length ? [Math.min(...all), Math.max(...all)] : [0.1, 1];
+      const log = high / low > 5;
+      const [from, to] = padded([low, high], log);
+      return { low: log ? from : Math.max(from, 0), high: to, log, label: `${q.name} RMSE of a run`, unit: q.unit };
+    };
+    const curve = (f) => {
+      const values = f.sorted[quantities[chosen].index];
+      return { x: [...(values.length ? [values[0]] : []), ...values], y: [0, ...values.map((v, i) => (i + 1) / f.runs)] };
+    };
+    const svg = (width) => {
+      const legend = width ? key(study.filters.map((f, i) => ({ name: f.name, tint: colour(i), dash: dash(i) })).filter((f, i) => shown[i]), width) : { inner: "", height: 0 };
+      const w = width || Math.max(330, Math.min(plots.clientWidth || 900, 1000));
+      return picture(w, 330 + legend.height, legend.inner + panel({ width: w, height: 330, top: legend.height, x: axis(), y: { low: 0, high: 1.02, label: "share of runs", unit: "1" },
+        series: study.filters.map((f, i) => ({ ...curve(f), tint: colour(i), dash: dash(i), width: 1.8, step: true })).filter((s, i) => shown[i]) }));
+    };
+    const draw = () => {
+      plots.innerHTML = svg(0);
+      figure.querySelector(".chosen").textContent = quantities[chosen].name;
+    };
+    plots.addEventListener("mousemove", (event) => {
+      const picture = plots.firstElementChild, box = picture.getBoundingClientRect(), width = picture.viewBox.baseVal.width;
+      const part = (((event.clientX - box.left) / box.width) * width - 62) / (width - 74);
+      if (part < 0 || part > 1) return;
+      const a = axis();
+      const value = a.log ? a.low * (a.high / a.low) ** part : a.low + part * (a.high - a.low);
+      readout.textContent = `${short(value)} ${a.unit} or less: ` + study.filters.filter((f, i) => shown[i]).map((f) => `${f.name} ${f.sorted[quantities[chosen].index].filter((v) => v <= value).length} of ${f.runs}`).join(", ");
+    });
+    tabs(tools, quantities.map((q) => q.name), 0, (index) => { chosen = index; draw(); });
+    study.filters.forEach((f, i) => toggle(tools, f.name, true, `--f${i % 8}`, (on) => { shown[i] = on; draw(); }));
+    exports(tools, `${study.scenario}_runs`, () => [["filter", `${quantities[chosen].name} RMSE [${quantities[chosen].unit}]`, "share of runs"], ...study.filters.filter((f, i) => shown[i]).flatMap((f) => f.sorted[quantities[chosen].index].map((v, i) => [f.name, v, (i + 1) / f.runs]))], () => svg(900));
+    return draw;
+  };
+
+  const sortable = (figure, study) => {
+    const table = figure.querySelector("table"), body = table.tBodies[0], heads = [...table.tHead.rows[0].cells];
+    heads.forEach((head, column) => head.querySelector("button").addEventListener("click", () => {
+      const ascending = head.getAttribute("aria-sort") !== "ascending";
+      heads.forEach((other) => other.removeAttribute("aria-sort"));
+      head.setAttribute("aria-sort", ascending ? "ascending" : "descending");
+      const value = (row) => (column === 0 ? row.cells[0].textContent : row.cells[column].dataset.value);
+      const sign = ascending ? 1 : -1;
+      body.append(...[...body.rows].sort((a, b) => {
+        const [x, y] = [value(a), value(b)];
+        // What is absent comes last, whichever way.
+        if (x === "" || y === "") return (x === "") - (y === "");
+        return sign * (column === 0 ? x.localeCompare(y) : x - y);
+      }));
+    }));
+    exports(figure.querySelector(".tools"), `${study.scenario}_summary`, () => [heads.map((h) => h.textContent), ...[...body.rows].map((row) => [...row.cells].map((c) => c.dataset.value ?? c.textContent))]);
+  };
+
+  // ---- all of it
+  const draws = studies.flatMap((study) => {
+    const article = document.getElementById(study.id);
+    const figure = (name, make) => {
+      const found = article.querySelector(`figure.${name}`);
+      return found ? [make(found, study)] : [];
+    };
+    sortable(article.querySelector("figure.summary"), study);
+    return [...figure("errors", errors), ...figure("consistency", consistency), ...figure("forest", forest), ...figure("cdf", cdf)];
+  });
+  const themeButton = document.getElementById("theme");
+  const dress = (dark) => {
+    root.dataset.theme = dark ? "dark" : "light";
+    themeButton.textContent = dark ? "light" : "dark";
+    document.querySelectorAll(".key[data-filter]").forEach((k) => { k.style.borderColor = colour(+k.dataset.filter); });
+    document.querySelectorAll(".key[data-tint]").forEach((k) => { k.style.borderColor = css(k.dataset.tint); });
+    draws.forEach((draw) => draw());
+  };
+  let dark = prefersDark.matches;
+  themeButton.addEventListener("click", () => { dark = !dark; dress(dark); });
+  prefersDark.addEventListener("change", (event) => { dark = event.matches; dress(dark); });
+  // Paper is white.
+  addEventListener("beforeprint", () => dress(false));
+  addEventListener("afterprint", () => dress(dark));
+  let width = innerWidth;
+  addEventListener("resize", () => {
+    resize();
+    if (Math.abs(innerWidth - width) > 40) { width = innerWidth; draws.forEach((draw) => draw()); }
+  });
+  dress(dark);
+})();

@@ -1,0 +1,193 @@
+//! The files of a study, read back.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::ReportError;
+
+/// What the page uses of `manifest.json`; whatever else stands there is left alone.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Manifest {
+    pub harness_version: String,
+    pub identity: Option<String>,
+    #[serde(default)]
+    pub models: BTreeMap<String, Value>,
+    pub studies: Vec<StudyFacts>,
+}
+
+/// One world's study.
+#[derive(Debug, Deserialize)]
+pub(crate) struct StudyFacts {
+    pub scenario: String,
+    pub case: String,
+    pub runs: u32,
+    pub study_seed: i64,
+    pub duration_s: f64,
+    pub scored_from_s: f64,
+    pub step_s: f64,
+    pub sample_period_s: f64,
+    pub filters: Vec<Value>,
+    #[serde(default)]
+    pub plan: Value,
+    #[serde(default)]
+    pub mission: Value,
+    #[serde(default)]
+    pub notes: Vec<String>,
+}
+
+/// A row of a table by the names of its columns.
+#[derive(Debug, Clone)]
+pub(crate) struct Row(BTreeMap<String, String>);
+
+impl Row {
+    pub fn text(&self, column: &str) -> &str {
+        self.0.get(column).map_or("", String::as_str)
+    }
+
+    /// `None` for an empty cell.
+    pub fn number(&self, column: &str) -> Option<f64> {
+        self.text(column).parse().ok()
+    }
+
+    /// Zero for an empty cell.
+    pub fn count(&self, column: &str) -> u64 {
+        self.text(column).parse().unwrap_or(0)
+    }
+
+    fn is_of(&self, study: &StudyFacts) -> bool {
+        self.text("scenario") == study.scenario && self.text("case") == study.case
+    }
+}
+
+/// A study's folder.
+#[derive(Debug)]
+pub(crate) struct Folder {
+    path: PathBuf,
+    pub manifest: Manifest,
+    summary: Vec<Row>,
+    runs: Vec<Row>,
+    paired: Vec<Row>,
+    failures: Vec<Row>,
+}
+
+impl Folder {
+    pub fn read(path: &Path) -> Result<Self, ReportError> {
+        let bytes = contents(path, "manifest.json")?;
+        let manifest = serde_json::from_slice(&bytes).map_err(|source| ReportError::Manifest {
+            path: path.join("manifest.json"),
+            source,
+        })?;
+        Ok(Self {
+            path: path.to_owned(),
+            manifest,
+            summary: table(
+                path,
+                "summary.csv",
+                &["scenario", "filter", "case", "pos_rmse_m", "failed", "diverged"],
+            )?,
+            runs: table(
+                path,
+                "runs.csv",
+                &["scenario", "filter", "case", "run", "failed", "pos_rmse_m"],
+            )?,
+            paired: table(
+                path,
+                "paired.csv",
+                &["scenario", "filter", "quantity", "mean_difference"],
+            )?,
+            failures: table(path, "failures.csv", &["scenario", "filter", "run", "message"])?,
+        })
+    }
+
+    pub fn summary(&self, study: &StudyFacts) -> Vec<&Row> {
+        self.summary.iter().filter(|r| r.is_of(study)).collect()
+    }
+
+    /// Rows of `runs.csv` of a filter, in the order of the runs.
+    pub fn runs(&self, study: &StudyFacts, filter: &str) -> Vec<&Row> {
+        let of = |r: &&Row| r.is_of(study) && r.text("filter") == filter;
+        self.runs.iter().filter(of).collect()
+    }
+
+    pub fn paired(&self, study: &StudyFacts) -> Vec<&Row> {
+        self.paired.iter().filter(|r| r.is_of(study)).collect()
+    }
+
+    pub fn failures(&self, study: &StudyFacts) -> Vec<&Row> {
+        self.failures.iter().filter(|r| r.is_of(study)).collect()
+    }
+
+    /// Header and rows of the file over time of a filter; `None` when the folder came without it.
+    pub fn epochs(&self, study: &StudyFacts, filter: &str) -> Result<Option<Epochs>, ReportError> {
+        let name = format!("epochs/{}_{filter}_{}.csv", study.scenario, study.case);
+        let path = self.path.join(name);
+        let wrong = |source| ReportError::Table {
+            path: path.clone(),
+            source,
+        };
+        if !path.is_file() {
+            return Ok(None);
+        }
+        let mut reader = csv::Reader::from_path(&path).map_err(wrong)?;
+        let header: Vec<String> = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
+        let mut columns = vec![Vec::new(); header.len()];
+        for record in reader.records() {
+            for (column, cell) in columns.iter_mut().zip(&record.map_err(wrong)?) {
+                column.push(cell.parse::<f64>().ok());
+            }
+        }
+        Ok(Some(Epochs { header, columns }))
+    }
+}
+
+/// A file over time: each column with `None` where its cell is empty.
+#[derive(Debug)]
+pub(crate) struct Epochs {
+    pub header: Vec<String>,
+    pub columns: Vec<Vec<Option<f64>>>,
+}
+
+impl Epochs {
+    pub fn column(&self, name: &str) -> Option<&[Option<f64>]> {
+        let index = self.header.iter().position(|h| h == name)?;
+        self.columns.get(index).map(Vec::as_slice)
+    }
+}
+
+fn contents(folder: &Path, name: &'static str) -> Result<Vec<u8>, ReportError> {
+    let path = folder.join(name);
+    fs::read(&path).map_err(|source| match source.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory => ReportError::NoStudy {
+            path: folder.to_owned(),
+            missing: name,
+        },
+        _ => ReportError::Read { path, source },
+    })
+}
+
+fn table(folder: &Path, name: &'static str, needed: &[&'static str]) -> Result<Vec<Row>, ReportError> {
+    let bytes = contents(folder, name)?;
+    let path = folder.join(name);
+    let wrong = |source| ReportError::Table {
+        path: path.clone(),
+        source,
+    };
+    let mut reader = csv::Reader::from_reader(bytes.as_slice());
+    let header = reader.headers().map_err(wrong)?.clone();
+    if let Some(column) = needed.iter().find(|c| !header.iter().any(|h| h == **c)) {
+        return Err(ReportError::NoColumn { path, column });
+    }
+    reader
+        .records()
+        .map(|record| {
+            let record = record.map_err(wrong)?;
+            let cells = header.iter().zip(&record).map(|(h, c)| (h.to_owned(), c.to_owned()));
+            Ok(Row(cells.collect()))
+        })
+        .collect()
+}

@@ -1,0 +1,32 @@
+//! One self-contained HTML page from the folder of a study.
+//!
+//! The page is made of the files alone (`manifest.json`, `summary.csv`, `runs.csv`, `paired.csv`, `failures.csv`,
+//! `epochs/*.csv`), so that a folder that somebody has sent gives the same page. It asks no host for anything.
+//!
+//! Start reading at [`html`]; [`verdict`] says which filter is best and how surely, [`series`] thins time series,
+//! [`page`] fills the template.
+
+mod error;
+mod events;
+mod figures;
+mod folder;
+mod number;
+mod page;
+mod series;
+mod verdict;
+
+use std::path::Path;
+
+pub use error::ReportError;
+pub use number::short;
+pub use verdict::{Rival, RunValues, Verdict};
+
+/// The page of a study.
+///
+/// * `folder`: where `compare` has written.
+///
+/// # Errors
+/// [`ReportError`]: the folder holds no study, or a file of it cannot be understood.
+pub fn html(folder: &Path) -> Result<String, ReportError> {
+    page::render(&folder::Folder::read(folder)?)
+}

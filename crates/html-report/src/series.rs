@@ -1,0 +1,159 @@
+//! Time series of a filter, thinned to what a figure can show.
+
+use serde::Serialize;
+
+use crate::folder::Epochs;
+use crate::number::significant;
+
+/// Significant digits of what a figure draws.
+const DIGITS: usize = 4;
+
+/// The curves of a filter.
+#[derive(Debug, Serialize)]
+pub(crate) struct Series {
+    /// Epochs in the file for each pair of points drawn; 1 when all are drawn.
+    pub every: usize,
+    /// Time, s.
+    pub t: Vec<f64>,
+    /// Position, velocity, acceleration, as far as the file has them.
+    pub quantities: Vec<QuantitySeries>,
+    pub nees: Vec<Option<f64>>,
+    pub nis: Vec<Option<f64>>,
+    /// Degrees of freedom of the NIS, where they are the same at all epochs.
+    #[serde(skip)]
+    pub residual_rows: Option<usize>,
+}
+
+#[derive(Debug, Serialize)]
+pub(crate) struct QuantitySeries {
+    pub name: &'static str,
+    pub unit: &'static str,
+    pub axes: Vec<AxisSeries>,
+}
+
+/// Mean error, sample sigma, estimated sigma.
+#[derive(Debug, Serialize)]
+pub(crate) struct AxisSeries {
+    pub axis: String,
+    pub mean: Vec<Option<f64>>,
+    pub sample: Vec<Option<f64>>,
+    pub estimated: Vec<Option<f64>>,
+}
+
+/// Prefix in the header, name, suffix, unit.
+const QUANTITIES: [(&str, &str, &str, &str); 3] = [
+    ("mean_pos_", "position", "_m", "m"),
+    ("mean_vel_", "velocity", "_m_s", "m/s"),
+    ("mean_acc_", "acceleration", "_m_s2", "m/s²"),
+];
+
+/// The curves of a file over time.
+///
+/// * `points`: most points of a curve.
+/// * returns: `None` when the file has no time.
+pub(crate) fn series(epochs: &Epochs, points: usize) -> Option<Series> {
+    let time: Vec<f64> = epochs.column("t_s")?.iter().map(|t| t.unwrap_or(f64::NAN)).collect();
+    let every = if time.len() <= points {
+        1
+    } else {
+        time.len().div_ceil((points / 2).max(1))
+    };
+    let thin = |column: &[Option<f64>]| thinned(column, every);
+    let column = |name: &str| epochs.column(name).map(thin).unwrap_or_default();
+    let quantities = QUANTITIES.into_iter().filter_map(|(prefix, name, suffix, unit)| {
+        let axes: Vec<AxisSeries> = epochs
+            .header
+            .iter()
+            .filter_map(|h| h.strip_prefix(prefix)?.strip_suffix(suffix))
+            .map(|axis| {
+                let of = |kind: &str| column(&format!("{kind}{}{axis}{suffix}", &prefix["mean".len()..]));
+                AxisSeries {
+                    axis: axis.to_owned(),
+                    mean: of("mean"),
+                    sample: of("sample_sigma"),
+                    estimated: of("est_sigma"),
+                }
+            })
+            .filter(|a| a.mean.iter().any(Option::is_some))
+            .collect();
+        (!axes.is_empty()).then_some(QuantitySeries { name, unit, axes })
+    });
+    Some(Series {
+        every,
+        t: thinned_time(&time, every),
+        quantities: quantities.collect(),
+        nees: column("nees"),
+        nis: column("nis"),
+        residual_rows: residual_rows(epochs),
+    })
+}
+
+/// Rows of the residual at the epochs that have a NIS; `None` when they are not always the same number.
+fn residual_rows(epochs: &Epochs) -> Option<usize> {
+    let states = ["mean_pos_", "mean_vel_", "mean_acc_", "mean_bias_"];
+    let is_residual = |header: &str| header.starts_with("mean_") && !states.iter().any(|s| header.starts_with(s));
+    let residuals: Vec<_> = epochs
+        .header
+        .iter()
+        .zip(&epochs.columns)
+        .filter(|(header, _)| is_residual(header))
+        .map(|(_, column)| column)
+        .collect();
+    let with_nis = epochs
+        .column("nis")?
+        .iter()
+        .enumerate()
+        .filter(|(_, nis)| nis.is_some());
+    let mut rows = with_nis.map(|(i, _)| residuals.iter().filter(|c| c[i].is_some()).count());
+    let first = rows.next().filter(|n| *n > 0)?;
+    rows.all(|n| n == first).then_some(first)
+}
+
+/// Of each bucket of `every` values the least and the greatest, in the order in which they come.
+fn thinned(column: &[Option<f64>], every: usize) -> Vec<Option<f64>> {
+    let round = |v: Option<f64>| v.map(|v| significant(v, DIGITS));
+    if every == 1 {
+        return column.iter().copied().map(round).collect();
+    }
+    let extremes = |bucket: &[Option<f64>]| {
+        let present = || bucket.iter().enumerate().filter_map(|(i, v)| Some((i, (*v)?)));
+        let least = present().min_by(|a, b| a.1.total_cmp(&b.1));
+        let greatest = present().max_by(|a, b| a.1.total_cmp(&b.1));
+        let value = |e: Option<(usize, f64)>| e.map(|(_, v)| v);
+        if least.map(|e| e.0) <= greatest.map(|e| e.0) {
+            [value(least), value(greatest)]
+        } else {
+            [value(greatest), value(least)]
+        }
+    };
+    column.chunks(every).flat_map(extremes).map(round).collect()
+}
+
+/// Times of the two points of each bucket: its first epoch and its middle one.
+fn thinned_time(time: &[f64], every: usize) -> Vec<f64> {
+    if every == 1 {
+        return time.to_vec();
+    }
+    let two = |bucket: &[f64]| {
+        let first = bucket.first().copied().unwrap_or(f64::NAN);
+        let last = bucket.last().copied().unwrap_or(f64::NAN);
+        [first, 0.5 * (first + last)]
+    };
+    time.chunks(every).flat_map(two).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extremes_survive_in_their_order() {
+        let values = [1.0, 9.0, 2.0, 5.0, 0.5, 4.0].map(Some);
+        assert_eq!(thinned(&values, 3), [Some(1.0), Some(9.0), Some(5.0), Some(0.5)]);
+        assert_eq!(
+            thinned(&[None, Some(3.0), None, None], 2),
+            [Some(3.0), Some(3.0), None, None]
+        );
+        assert_eq!(thinned_time(&[0.0, 1.0, 2.0, 3.0], 3), [0.0, 1.0, 3.0, 3.0]);
+    }
+}

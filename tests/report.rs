@@ -1,0 +1,341 @@
+//! The HTML page of a study: what it says, that it needs nothing from outside, and that it works in a browser.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
+
+mod common;
+
+use common::{harness, harness_ok, read_csv, results, skipped};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::OnceLock;
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// A study of four runs of two filters with something set and varied, made once.
+fn study() -> &'static Path {
+    static FOLDER: OnceLock<tempfile::TempDir> = OnceLock::new();
+    let folder = FOLDER.get_or_init(|| {
+        let folder = tempfile::tempdir().unwrap();
+        harness_ok(&[
+            "compare",
+            "--filters",
+            "fixed_q,snc,milton",
+            "--runs",
+            "4",
+            "--seed",
+            "7",
+            "--set",
+            "fmu-truth.vent.scale=3",
+            "--vary",
+            "fmu-truth.lidar.sigma_range=loguniform:0.05:0.2",
+            "--out",
+            text(folder.path()),
+        ]);
+        folder
+    });
+    folder.path()
+}
+
+fn page(folder: &Path) -> String {
+    std::fs::read_to_string(folder.join("report.html")).unwrap()
+}
+
+/// What stands between two texts.
+fn between<'a>(text: &'a str, before: &str, after: &str) -> &'a str {
+    let begin = text
+        .find(before)
+        .unwrap_or_else(|| panic!("{before:?} is missing in {text:.300}"))
+        + before.len();
+    let rest = &text[begin..];
+    &rest[..rest.find(after).unwrap()]
+}
+
+/// A value with its standard error as it is printed, each to two digits of the error.
+fn value_and_error(printed: &str) -> (f64, f64) {
+    let (value, error) = printed.split_once("\u{a0}±\u{a0}").unwrap();
+    (value.trim().parse().unwrap(), error.trim().parse().unwrap())
+}
+
+fn holds(printed: (f64, f64), expected: (f64, f64)) {
+    // Half a unit of the second digit is at most a twentieth.
+    let near = |a: f64, b: f64| (a - b).abs() <= 0.051 * expected.1;
+    assert!(
+        near(printed.0, expected.0) && near(printed.1, expected.1),
+        "{printed:?} instead of {expected:?}"
+    );
+}
+
+#[test]
+fn the_verdict_is_that_of_the_tables() {
+    let folder = study();
+    let number = |row: &HashMap<String, String>, name: &str| row[name].parse::<f64>().unwrap();
+    let mut summary = read_csv(&folder.join("summary.csv"));
+    summary.sort_by(|a, b| number(a, "pos_rmse_m").total_cmp(&number(b, "pos_rmse_m")));
+    let runs = read_csv(&folder.join("runs.csv"));
+    let of = |filter: &str| -> Vec<f64> {
+        let rows = runs.iter().filter(|r| r["filter"] == filter);
+        rows.map(|r| number(r, "pos_rmse_m")).collect()
+    };
+    let (best, next) = (&summary[0], &summary[1]);
+    let (ours, theirs) = (of(&best["filter"]), of(&next["filter"]));
+    let differences: Vec<f64> = theirs.iter().zip(&ours).map(|(a, b)| a - b).collect();
+    let n = differences.len() as f64;
+    assert_eq!(differences.len(), 4);
+    let mean = differences.iter().sum::<f64>() / n;
+    let error = (differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0) / n).sqrt();
+
+    let page = page(folder);
+    let verdict = between(&page, "<section class=\"verdict\">", "</section>");
+    let headline = between(verdict, "<p class=\"headline\">", "</p>");
+    assert!(headline.starts_with(&best["filter"]), "{headline}");
+    holds(
+        value_and_error(between(headline, "RMSE, ", "\u{a0}m")),
+        (number(best, "pos_rmse_m"), number(best, "pos_rmse_se_m")),
+    );
+    let told = if mean > 2.0 * error {
+        format!("The next, {}, is worse by ", next["filter"])
+    } else {
+        format!(
+            "It cannot be told apart from the next, {}, at two standard errors: the difference is ",
+            next["filter"]
+        )
+    };
+    holds(value_and_error(between(verdict, &told, "\u{a0}m")), (mean, error));
+}
+
+#[test]
+fn deviations_badges_digests_and_replays_are_named() {
+    let folder = study();
+    let page = page(folder);
+    let setting = between(&page, "<p class=\"setting deviates\">", "</p>");
+    for part in [
+        "set fmu-truth.vent.scale=3",
+        "varied fmu-truth.lidar.sigma_range=loguniform:0.05:0.2",
+        "<b>runs</b> 4",
+        "<b>seed</b> 7",
+        "<b>duration</b> 5680 s",
+    ] {
+        assert!(setting.contains(part), "{part}: {setting}");
+    }
+    let manifest: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.join("manifest.json")).unwrap()).unwrap();
+    for digest in [&manifest["identity"], &manifest["models"]["fmu-nav"]["guid"]] {
+        assert!(page.contains(digest.as_str().unwrap()), "{digest}");
+    }
+    // The filters whose mean NEES is within the bounds are marked as such, and no others.
+    let inside = |row: &&HashMap<String, String>| {
+        let number = |name: &str| row[name].parse::<f64>().unwrap();
+        (number("nees_low")..=number("nees_high")).contains(&number("nees"))
+    };
+    let summary = read_csv(&folder.join("summary.csv"));
+    let badges = between(&page, "<table class=\"badges\">", "</table>");
+    let marked = badges.matches("<td class=\"good\">NEES").count();
+    assert_eq!(marked, summary.iter().filter(inside).count(), "{badges}");
+    assert_eq!(badges.matches("NEES").count(), summary.len());
+    let runs = read_csv(&folder.join("runs.csv"));
+    let worst = runs
+        .iter()
+        .filter(|r| r["filter"] == "snc")
+        .max_by(|a, b| {
+            let rmse = |r: &HashMap<String, String>| r["pos_rmse_m"].parse::<f64>().unwrap();
+            rmse(a).total_cmp(&rmse(b))
+        })
+        .unwrap();
+    let command = format!(
+        "trade-harness replay --scenario leo_venting --filters snc --seed 7 --run {} --set fmu-truth.vent.scale=3 \
+         --vary fmu-truth.lidar.sigma_range=loguniform:0.05:0.2",
+        worst["run"]
+    );
+    let section = between(&page, "<summary>snc</summary>", "</details>");
+    assert_eq!(between(section, "<code>", "</code>"), command);
+}
+
+#[test]
+fn the_page_asks_no_host_and_is_small() {
+    let page = page(study());
+    assert!(page.len() < 5_000_000, "{} bytes", page.len());
+    // Names of XML are no addresses; one comment names the home of the plots' library.
+    let outside: Vec<&str> = page
+        .match_indices("://")
+        .map(|(at, _)| {
+            let end = page[at..].find([' ', '"', '\'', '`', ')', '\n']).unwrap_or(0) + at;
+            let begin = page[..at]
+                .rfind(|c: char| !c.is_ascii_alphabetic())
+                .map_or(0, |b| b + 1);
+            &page[begin..end]
+        })
+        .filter(|address| *address != "http://www.w3.org/2000/svg" && *address != "https://github.com/leeoniya/uPlot")
+        .collect();
+    assert!(outside.is_empty(), "{outside:?}");
+    assert!(page.contains("default-src 'none'"));
+}
+
+/// Made again, from a folder in another place, it is the same; without the files over time it still is a page.
+#[test]
+fn a_folder_that_was_sent_gives_the_same_page() {
+    let sent = tempfile::tempdir().unwrap();
+    for (name, bytes) in results(study()) {
+        let path = sent.path().join(&name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        if name != "report.html" {
+            std::fs::write(path, bytes).unwrap();
+        }
+    }
+    harness_ok(&["report", text(sent.path())]);
+    assert!(page(sent.path()) == page(study()), "another page");
+    std::fs::remove_dir_all(sent.path().join("epochs")).unwrap();
+    harness_ok(&["report", text(sent.path())]);
+    assert!(page(sent.path()).contains("there are no figures over time"));
+}
+
+#[test]
+fn a_folder_that_is_no_study_is_refused_and_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |says: &[&str]| {
+        let output = harness(&["report", text(folder.path())]);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        for part in says {
+            assert!(said.contains(part), "'{part}' is missing in: {said}");
+        }
+        assert!(!folder.path().join("report.html").exists());
+    };
+    refused(&[text(folder.path()), "no manifest.json", "compare --out"]);
+    std::fs::write(folder.path().join("manifest.json"), "[1, 2]").unwrap();
+    refused(&["manifest.json", "no manifest"]);
+    std::fs::copy(study().join("manifest.json"), folder.path().join("manifest.json")).unwrap();
+    refused(&["no summary.csv"]);
+    std::fs::write(folder.path().join("summary.csv"), "a,b\n1,2\n").unwrap();
+    refused(&["summary.csv", "no column 'scenario'"]);
+}
+
+/// Works the page and writes what it finds into an element of its own.
+const PROBE: &str = r#"<script>
+addEventListener("load", () => setTimeout(async () => {
+  const figure = (name) => document.querySelector(`figure.${name}`);
+  const shown = {};
+  const note = (name, value) => { shown[name] = value; };
+  note("plots", document.querySelectorAll("canvas").length);
+  const tabs = [...figure("errors").querySelectorAll("[role=tab]")];
+  note("tabs", tabs.map((t) => t.textContent).join(","));
+  tabs[1].click();
+  note("chosen", figure("errors").querySelector(".chosen").textContent);
+  const quantity = [...figure("forest").querySelectorAll("[role=tab]")];
+  quantity[1].click();
+  note("forest", figure("forest").querySelector("svg").textContent.includes("velocity RMSE [") && figure("forest").querySelectorAll("circle").length);
+  const head = [...figure("summary").querySelectorAll("thead button")].find((b) => b.textContent.startsWith("position RMSE"));
+  const order = () => [...figure("summary").querySelectorAll("tbody th")].map((c) => c.textContent).join(",");
+  head.click();
+  note("ascending", order());
+  head.click();
+  note("descending", order());
+  const curves = () => figure("cdf").querySelectorAll("svg path[data-last]").length;
+  const before = curves();
+  figure("cdf").querySelector("[aria-pressed]").click();
+  note("hidden", before - curves());
+  // A drag over the first plot zooms all of its figure; a double click resets them.
+  const spans = () => [...figure("errors").querySelectorAll(".plots > div")].map((d) => Math.round(d.dataset.to - d.dataset.from));
+  const over = figure("errors").querySelector(".u-over"), box = over.getBoundingClientRect();
+  const mouse = (kind, part, target) => target.dispatchEvent(new MouseEvent(kind, { bubbles: true, button: 0, clientX: box.left + part * box.width, clientY: box.top + 0.5 * box.height, movementX: 5, movementY: 5 }));
+  const wait = () => new Promise((done) => setTimeout(done, 200));
+  await wait();
+  const whole = spans();
+  mouse("mouseenter", 0.25, over);
+  mouse("mousemove", 0.25, over);
+  mouse("mousedown", 0.25, over);
+  await wait();
+  mouse("mousemove", 0.5, over);
+  await wait();
+  mouse("mouseup", 0.5, document);
+  await wait();
+  note("zoomed", spans().every((s, i) => Math.abs(s / whole[i] - 0.25) < 0.05));
+  mouse("mousemove", 0.4, over);
+  await wait();
+  note("readout", figure("errors").querySelector(".readout").textContent);
+  mouse("dblclick", 0.5, over);
+  await wait();
+  note("reset", String(spans()) === String(whole));
+  const theme = document.documentElement.dataset.theme;
+  document.getElementById("theme").click();
+  note("theme", theme !== document.documentElement.dataset.theme);
+  note("wide", document.documentElement.scrollWidth > innerWidth);
+  note("resources", performance.getEntriesByType("resource").length);
+  const made = document.createElement("pre");
+  made.id = "probe";
+  made.textContent = JSON.stringify(shown);
+  document.body.append(made);
+}, 200));
+</script>"#;
+
+/// A page in headless Chromium: what the probe found, and what stood on the console. `None` without Chromium.
+fn browsed(page: &str, size: &str) -> Option<(serde_json::Value, Vec<String>)> {
+    let folder = tempfile::tempdir().unwrap();
+    let file: PathBuf = folder.path().join("probed.html");
+    std::fs::write(&file, page.replace("</body>", &format!("{PROBE}</body>"))).unwrap();
+    let output = Command::new("chromium")
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-background-networking",
+        ])
+        .args(["--virtual-time-budget=10000", "--enable-logging=stderr", "--dump-dom"])
+        .arg(format!("--window-size={size}"))
+        .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
+        .arg(format!("file://{}", file.display()))
+        .stdin(Stdio::null())
+        .output()
+        .ok()?;
+    let console = String::from_utf8_lossy(&output.stderr);
+    let console = console.lines().filter(|l| l.contains("CONSOLE")).map(str::to_owned);
+    let dom = String::from_utf8(output.stdout).unwrap();
+    let found = serde_json::from_str(between(&dom, "<pre id=\"probe\">", "</pre>")).unwrap();
+    Some((found, console.collect()))
+}
+
+#[test]
+fn the_page_works_in_a_browser() {
+    let page = page(study());
+    let Some((found, console)) = browsed(&page, "1200,1600") else {
+        skipped("the_page_works_in_a_browser", "chromium");
+        return;
+    };
+    assert!(console.is_empty(), "{console:#?}");
+    let mut summary = read_csv(&study().join("summary.csv"));
+    summary.sort_by_key(|r| (r["pos_rmse_m"].parse::<f64>().unwrap() * 1e9) as u64);
+    let mut names: Vec<&str> = summary.iter().map(|r| r["filter"].as_str()).collect();
+    let ascending = names.join(",");
+    names.reverse();
+    let expected = serde_json::json!({
+        "plots": 11,
+        "tabs": "fixed_q,snc,milton",
+        "chosen": "snc",
+        "forest": 2,
+        "ascending": ascending,
+        "descending": names.join(","),
+        "hidden": 1,
+        "zoomed": true,
+        "reset": true,
+        "theme": true,
+        "wide": false,
+        "resources": 0,
+    });
+    for (name, value) in expected.as_object().unwrap() {
+        assert_eq!(&found[name], value, "{name}: {found}");
+    }
+    let readout = found["readout"].as_str().unwrap();
+    assert!(
+        readout.contains("mean error") && readout.contains(" m, 3σ sample"),
+        "{readout}"
+    );
+
+    // Narrow, nothing sticks out; and the probe does see a page that asks a host.
+    let (narrow, console) = browsed(&page, "500,900").unwrap();
+    assert!(narrow["wide"] == false && console.is_empty(), "{narrow} {console:?}");
+    let asking = page.replace("<header>", "<img src=\"https://example.invalid/x.png\"><header>");
+    let (_, console) = browsed(&asking, "1200,900").unwrap();
+    assert!(console.iter().any(|l| l.contains("example.invalid")), "{console:?}");
+}

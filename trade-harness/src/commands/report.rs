@@ -1,0 +1,26 @@
+//! `report`: the HTML page of a study, from its files.
+
+use std::io::Write;
+
+use super::shared::{Verdict, say};
+use crate::HarnessError;
+use crate::cli::ReportArgs;
+use crate::output::OutputFolder;
+
+const PAGE: &str = "report.html";
+
+pub(super) fn report(args: &ReportArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+    // Before anything is written: what is no study stays as it is.
+    let page = html_report::html(&args.dir)?;
+    let path = OutputFolder::prepare(&args.dir)?.write(PAGE, page.as_bytes())?;
+    if !args.quiet {
+        say(out, &path.display().to_string())?;
+    }
+    Ok(Verdict::Done)
+}
+
+/// Writes the page into the folder of a finished study; returns its name.
+pub(super) fn write_page(folder: &OutputFolder) -> Result<String, HarnessError> {
+    folder.write(PAGE, html_report::html(folder.path())?.as_bytes())?;
+    Ok(PAGE.to_owned())
+}
