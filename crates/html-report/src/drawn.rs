@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::prelude::*;
 use plotters::style::FontStyle;
 
@@ -13,7 +14,7 @@ use crate::ReportError;
 use crate::events::Event;
 use crate::figures::{self, Figures, FilterFigures};
 use crate::folder::Folder;
-use crate::number::short;
+use crate::number::significant;
 use crate::series::{AxisSeries, QuantitySeries, Series};
 
 /// Kind of picture.
@@ -35,6 +36,11 @@ const COLOURS: [RGBColor; 7] = [
     RGBColor(86, 180, 233),
     RGBColor(27, 27, 27),
 ];
+
+/// What the figure of errors draws.
+const SAMPLE: (&str, RGBColor) = ("3 sigma of the errors", COLOURS[0]);
+const ESTIMATED: (&str, RGBColor) = ("3 sigma as estimated", COLOURS[1]);
+const MEAN: (&str, RGBColor) = ("mean error", COLOURS[6]);
 
 /// Where systems keep a sans-serif font.
 const FONTS: [&str; 6] = [
@@ -140,11 +146,12 @@ fn failed<E: std::error::Error>(error: E) -> ReportError {
     ReportError::Drawing(error.to_string())
 }
 
-/// A curve: its points, its colour, its name in the legend if it has one.
+/// A curve.
 struct Line {
     points: Vec<(f64, f64)>,
     colour: RGBColor,
-    name: Option<String>,
+    /// Pixels. Time series have one: the library's mitres of wider lines stick out beyond their points.
+    width: u32,
 }
 
 /// One pair of axes.
@@ -160,6 +167,12 @@ struct Panel<'a> {
 
 fn colour(index: usize) -> RGBColor {
     COLOURS[index % COLOURS.len()]
+}
+
+/// Names and colours of the filters.
+fn filters(figures: &Figures) -> impl Iterator<Item = (&str, RGBColor)> {
+    let filters = figures.filters.iter().enumerate();
+    filters.map(|(index, filter)| (filter.name.as_str(), colour(index)))
 }
 
 /// The points of a curve, without those that are absent.
@@ -201,25 +214,15 @@ where
             .margin(8 * self.scale)
             .x_label_area_size(38 * self.scale)
             .y_label_area_size(66 * self.scale)
-            .build_cartesian_2d(x.clone(), y.clone())
+            .build_cartesian_2d(Axis::new(&x, panel.powers.0), Axis::new(&y, panel.powers.1))
             .map_err(failed)?;
-        let label = |powers: bool| {
-            move |v: &f64| {
-                if powers {
-                    short(Some(10.0_f64.powf(*v)))
-                } else {
-                    tick(*v)
-                }
-            }
-        };
+        let label = |powers: bool| move |v: &f64| tick(if powers { 10.0_f64.powf(*v) } else { *v });
         chart
             .configure_mesh()
             .light_line_style(TRANSPARENT)
             .bold_line_style(RGBColor(225, 225, 225))
             .x_desc(panel.x.1)
             .y_desc(panel.y.1)
-            .x_labels(7)
-            .y_labels(6)
             .x_label_formatter(&label(panel.powers.0))
             .y_label_formatter(&label(panel.powers.1))
             .label_style(self.font(12))
@@ -239,29 +242,33 @@ where
             let band = Rectangle::new([(x.start, low.max(y.start)), (x.end, high.min(y.end))], style);
             chart.draw_series([band]).map_err(failed)?;
         }
-        let mut named = false;
-        let length = 20 * self.scale as i32;
         for line in panel.lines {
-            let style = line.colour.stroke_width(self.scale);
-            let drawn = chart.draw_series(LineSeries::new(line.points, style)).map_err(failed)?;
-            if let Some(name) = line.name {
-                named = true;
-                drawn
-                    .label(name)
-                    .legend(move |(x, y)| PathElement::new([(x, y), (x + length, y)], style));
-            }
-        }
-        if named {
-            chart
-                .configure_series_labels()
-                .position(SeriesLabelPosition::UpperRight)
-                .background_style(WHITE.mix(0.8))
-                .legend_area_size(26 * self.scale)
-                .label_font(self.font(12))
-                .draw()
-                .map_err(failed)?;
+            let style = line.colour.stroke_width(line.width);
+            chart.draw_series(LineSeries::new(line.points, style)).map_err(failed)?;
         }
         Ok(())
+    }
+
+    /// Writes names beside their colours along the top; returns the room below.
+    fn legend<'n>(
+        &self,
+        entries: impl IntoIterator<Item = (&'n str, RGBColor)>,
+    ) -> Result<DrawingArea<B, Shift>, ReportError> {
+        self.root.fill(&WHITE).map_err(failed)?;
+        let unit = self.scale as i32;
+        let (strip, rest) = self.root.split_vertically(26 * unit);
+        let mut x = 74 * unit;
+        for (name, colour) in entries {
+            let style = colour.stroke_width(2 * self.scale);
+            let y = 14 * unit;
+            strip
+                .draw(&PathElement::new([(x, y), (x + 22 * unit, y)], style))
+                .map_err(failed)?;
+            let text = Text::new(name.to_owned(), (x + 28 * unit, y - 7 * unit), self.font(13));
+            strip.draw(&text).map_err(failed)?;
+            x += unit * (50 + 7 * name.chars().count() as i32);
+        }
+        Ok(rest)
     }
 
     fn axis(
@@ -272,22 +279,22 @@ where
         quantity: &QuantitySeries,
         axis: &AxisSeries,
     ) -> Result<(), ReportError> {
-        let kinds: [(&[Option<f64>], f64, usize, Option<&str>); 5] = [
-            (&axis.sample, 3.0, 0, Some("3 sigma sample")),
-            (&axis.sample, -3.0, 0, None),
-            (&axis.estimated, 3.0, 1, Some("3 sigma estimated")),
-            (&axis.estimated, -3.0, 1, None),
-            (&axis.mean, 1.0, 6, Some("mean error")),
+        let kinds: [(&[Option<f64>], f64, RGBColor); 5] = [
+            (&axis.sample, 3.0, SAMPLE.1),
+            (&axis.sample, -3.0, SAMPLE.1),
+            (&axis.estimated, 3.0, ESTIMATED.1),
+            (&axis.estimated, -3.0, ESTIMATED.1),
+            (&axis.mean, 1.0, MEAN.1),
         ];
-        let lines = kinds.map(|(values, factor, index, name)| Line {
+        let lines = kinds.map(|(values, factor, colour)| Line {
             points: points(t, values, factor),
-            colour: colour(index),
-            name: name.map(str::to_owned),
+            colour,
+            width: 1,
         });
         let y = range(&lines, figures.scored_from_s);
-        // What lies outside before the scored time ends at the frame.
+        // What is outside of the range of the scored time comes before it.
         let lines = lines.into_iter().map(|line| Line {
-            points: line.points.iter().map(|p| (p.0, p.1.clamp(y.start, y.end))).collect(),
+            points: line.points.into_iter().filter(|p| y.contains(&p.1)).collect(),
             ..line
         });
         self.panel(
@@ -307,12 +314,67 @@ where
     }
 }
 
+/// A linear axis with places of our own: the library's are not round where numbers are powers of ten.
+struct Axis {
+    range: Range<f64>,
+    places: Vec<f64>,
+}
+
+impl Axis {
+    fn new(range: &Range<f64>, powers: bool) -> Self {
+        Self {
+            range: range.clone(),
+            places: if powers { decades(range) } else { ticks(range) },
+        }
+    }
+}
+
+impl Ranged for Axis {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        let share = (value - self.range.start) / (self.range.end - self.range.start);
+        limit.0 + (share * f64::from(limit.1 - limit.0)).round() as i32
+    }
+
+    fn key_points<H: KeyPointHint>(&self, _hint: H) -> Vec<f64> {
+        self.places.clone()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.range.clone()
+    }
+}
+
+/// Some five places of a linear axis: multiples of one, two or five times a power of ten.
+fn ticks(range: &Range<f64>) -> Vec<f64> {
+    let raw = (range.end - range.start) / 5.0;
+    let power = 10.0_f64.powf(raw.log10().floor());
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|m| m * power);
+    let step = steps.into_iter().find(|s| *s >= raw).unwrap_or(raw);
+    let (first, last) = ((range.start / step).ceil() as i64, (range.end / step).floor() as i64);
+    (first..=last).map(|k| k as f64 * step).collect()
+}
+
+/// Places of an axis of powers of ten: the powers, or also twice and five times these where there are few.
+fn decades(range: &Range<f64>) -> Vec<f64> {
+    let within: &[f64] = if range.end - range.start > 2.5 {
+        &[1.0]
+    } else {
+        &[1.0, 2.0, 5.0]
+    };
+    let powers = range.start.floor() as i64..=range.end.floor() as i64;
+    let places = powers.flat_map(|k| within.iter().map(move |m| k as f64 + m.log10()));
+    places.filter(|v| range.contains(v)).collect()
+}
+
 /// A number of an axis.
 fn tick(value: f64) -> String {
     if value == 0.0 || (1e-2..1e5).contains(&value.abs()) {
-        format!("{}", crate::number::significant(value, 6))
+        significant(value, 6).to_string()
     } else {
-        format!("{:e}", crate::number::significant(value, 3))
+        format!("{:e}", significant(value, 3))
     }
 }
 
@@ -321,8 +383,8 @@ where
     B::ErrorType: 'static,
 {
     fn errors(&mut self, figures: &Figures, series: &Series) -> Result<(), ReportError> {
-        self.root.fill(&WHITE).map_err(failed)?;
-        let rows = self.root.split_evenly((series.quantities.len().max(1), 1));
+        let room = self.legend([MEAN, SAMPLE, ESTIMATED])?;
+        let rows = room.split_evenly((series.quantities.len().max(1), 1));
         for (row, quantity) in rows.iter().zip(&series.quantities) {
             let areas = row.split_evenly((1, quantity.axes.len()));
             for (area, axis) in areas.iter().zip(&quantity.axes) {
@@ -339,8 +401,8 @@ where
             ("NEES / states [1]", |s| &s.nees, |f| f.nees_bounds),
             ("NIS / rows [1]", |s| &s.nis, |f| f.nis_bounds),
         ];
-        self.root.fill(&WHITE).map_err(failed)?;
-        for (area, (name, values, band)) in self.root.split_evenly((2, 1)).iter().zip(kinds) {
+        let room = self.legend(filters(figures))?;
+        for (area, (name, values, band)) in room.split_evenly((2, 1)).iter().zip(kinds) {
             let lines = figures.filters.iter().enumerate().filter_map(|(index, filter)| {
                 let series = filter.series.as_ref()?;
                 let mut points = points(&series.t, values(series), 1.0);
@@ -349,7 +411,7 @@ where
                 Some(Line {
                     points,
                     colour: colour(index),
-                    name: Some(filter.name.clone()),
+                    width: 1,
                 })
             });
             let lines: Vec<Line> = lines.collect();
@@ -370,7 +432,7 @@ where
 
     fn forest(&mut self, figures: &Figures, quantity: usize) -> Result<(), ReportError> {
         let [quantity, unit] = figures.errors[quantity];
-        let rows: Vec<_> = figures.forest.iter().filter(|f| f.quantity == quantity).collect();
+        let rows: Vec<_> = figures.forest.iter().rev().filter(|f| f.quantity == quantity).collect();
         let ends = rows
             .iter()
             .flat_map(|f| [f.low.unwrap_or(f.mean), f.high.unwrap_or(f.mean), 0.0]);
@@ -378,7 +440,7 @@ where
             &[Line {
                 points: ends.map(|v| (0.0, v)).collect(),
                 colour: BLACK,
-                name: None,
+                width: 1,
             }],
             0.0,
         );
@@ -388,7 +450,7 @@ where
             .margin_right(30 * self.scale)
             .x_label_area_size(42 * self.scale)
             .y_label_area_size(170 * self.scale)
-            .build_cartesian_2d(x, (0..rows.len().saturating_sub(1)).into_segmented())
+            .build_cartesian_2d(Axis::new(&x, false), (0..rows.len().saturating_sub(1)).into_segmented())
             .map_err(failed)?;
         let name = |at: &SegmentValue<usize>| match at {
             SegmentValue::CenterOf(i) => rows.get(*i).map(|f| f.filter.clone()).unwrap_or_default(),
@@ -436,23 +498,22 @@ where
             Line {
                 points: steps.collect(),
                 colour: colour(index),
-                name: Some(filter.name.clone()),
+                width: 2 * self.scale,
             }
         });
         let mut lines: Vec<Line> = lines.collect();
         let turned = |line: &Line| Line {
             points: line.points.iter().map(|p| (0.0, p.0)).collect(),
             colour: line.colour,
-            name: None,
+            width: line.width,
         };
         let x = range(&lines.iter().map(turned).collect::<Vec<_>>(), 0.0);
         for line in &mut lines {
             line.points.extend(line.points.last().map(|last| (x.end, last.1)));
         }
-        self.root.fill(&WHITE).map_err(failed)?;
-        let root = self.root.clone();
+        let room = self.legend(filters(figures))?;
         self.panel(
-            &root,
+            &room,
             Panel {
                 x: (x, format!("{name} RMSE of a run [{unit}]")),
                 y: (0.0..1.02, "share of runs [1]".to_owned()),
@@ -463,5 +524,21 @@ where
             },
         )?;
         self.root.present().map_err(failed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_round_and_inside() {
+        assert_eq!(ticks(&(-0.9..1.3)), [-0.5, 0.0, 0.5, 1.0]);
+        let powers: Vec<f64> = decades(&(-0.8..0.5))
+            .iter()
+            .map(|v| significant(10.0_f64.powf(*v), 3))
+            .collect();
+        assert_eq!(powers, [0.2, 0.5, 1.0, 2.0]);
+        assert_eq!(decades(&(-3.1..1.2)), [-3.0, -2.0, -1.0, 0.0, 1.0]);
     }
 }
