@@ -192,6 +192,45 @@ fn a_folder_that_was_sent_gives_the_same_page() {
 }
 
 #[test]
+fn figures_are_written_as_svg_and_png() {
+    let sent = tempfile::tempdir().unwrap();
+    for (name, bytes) in results(study()) {
+        let path = sent.path().join(&name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, bytes).unwrap();
+    }
+    let output = harness(&["report", text(sent.path()), "--svg", "--png"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    if said.contains("no font was found") {
+        skipped("figures_are_written_as_svg_and_png", "fonts-dejavu-core");
+        return;
+    }
+    assert!(output.status.success(), "{said}");
+    let figure = |name: &str| std::fs::read(sent.path().join(format!("figures/leo_venting_nominal_{name}"))).unwrap();
+    // What each must show beside its curves: names, quantities with units.
+    for (name, shows) in [
+        (
+            "error_snc",
+            &["position, r [m]", "velocity, n [m/s]", "time [s]", "mean error"][..],
+        ),
+        ("consistency", &["NEES / states [1]", "NIS / rows [1]", "snc"]),
+        ("paired_position", &["minus that of fixed_q", "[m]", "milton", "snc"]),
+        (
+            "runs_velocity",
+            &["velocity RMSE of a run [m/s]", "share of runs", "fixed_q"],
+        ),
+    ] {
+        let svg = String::from_utf8(figure(&format!("{name}.svg"))).unwrap();
+        for part in shows {
+            assert!(svg.contains(part), "{name}: {part}");
+        }
+        let png = figure(&format!("{name}.png"));
+        assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n", "{name}");
+        assert!(png.len() > 10_000, "{name}: {} bytes", png.len());
+    }
+}
+
+#[test]
 fn a_folder_that_is_no_study_is_refused_and_left_alone() {
     let folder = tempfile::tempdir().unwrap();
     let refused = |says: &[&str]| {

@@ -356,6 +356,12 @@ pub struct ReportArgs {
     /// Folder of a finished study; report.html goes there
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
+    /// Write the figures as SVG as well, into DIR/figures
+    #[arg(long)]
+    pub svg: bool,
+    /// Write the figures as PNG as well, into DIR/figures
+    #[arg(long)]
+    pub png: bool,
     /// Say nothing of what was written
     #[arg(long, short)]
     pub quiet: bool,

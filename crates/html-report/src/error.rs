@@ -57,6 +57,14 @@ pub enum ReportError {
     /// A template that cannot be filled.
     #[error("cannot fill the page: {0}")]
     Template(#[from] askama::Error),
+    /// A system without a font for the figures.
+    #[error(
+        "no font was found to draw figures with; install one, as with the Debian package fonts-dejavu-core, or leave out --svg and --png"
+    )]
+    NoFont,
+    /// A figure that cannot be drawn.
+    #[error("cannot draw a figure: {0}")]
+    Drawing(String),
     /// A statistic that cannot be formed.
     #[error(transparent)]
     Statistic(#[from] stats::StatsError),

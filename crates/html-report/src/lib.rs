@@ -3,9 +3,10 @@
 //! The page is made of the files alone (`manifest.json`, `summary.csv`, `runs.csv`, `paired.csv`, `failures.csv`,
 //! `epochs/*.csv`), so that a folder that somebody has sent gives the same page. It asks no host for anything.
 //!
-//! Start reading at [`html`]; [`verdict`] says which filter is best and how surely, [`series`] thins time series,
-//! [`page`] fills the template.
+//! Start reading at [`html`]; [`Verdict`] says which filter is best and how surely, [`drawn`] draws the same figures as
+//! files. Inside, `figures` gathers what is drawn, `series` thins curves over time, and `page` fills the template.
 
+mod drawn;
 mod error;
 mod events;
 mod figures;
@@ -17,6 +18,7 @@ mod verdict;
 
 use std::path::Path;
 
+pub use drawn::{Format, drawn};
 pub use error::ReportError;
 pub use number::short;
 pub use verdict::{Rival, RunValues, Verdict};

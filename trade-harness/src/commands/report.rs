@@ -2,6 +2,8 @@
 
 use std::io::Write;
 
+use html_report::Format;
+
 use super::shared::{Verdict, say};
 use crate::HarnessError;
 use crate::cli::ReportArgs;
@@ -12,9 +14,17 @@ const PAGE: &str = "report.html";
 pub(super) fn report(args: &ReportArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
     // Before anything is written: what is no study stays as it is.
     let page = html_report::html(&args.dir)?;
-    let path = OutputFolder::prepare(&args.dir)?.write(PAGE, page.as_bytes())?;
-    if !args.quiet {
-        say(out, &path.display().to_string())?;
+    let mut files = vec![(PAGE.to_owned(), page.into_bytes())];
+    for (wanted, format) in [(args.svg, Format::Svg), (args.png, Format::Png)] {
+        if wanted {
+            files.extend(html_report::drawn(&args.dir, format)?);
+        }
+    }
+    let folder = OutputFolder::prepare(&args.dir)?;
+    for name in folder.write_all(files)? {
+        if !args.quiet {
+            say(out, &folder.path().join(name).display().to_string())?;
+        }
     }
     Ok(Verdict::Done)
 }
