@@ -206,7 +206,12 @@ fn figures_are_written_as_svg_and_png() {
         return;
     }
     assert!(output.status.success(), "{said}");
-    let figure = |name: &str| std::fs::read(sent.path().join(format!("figures/leo_venting_nominal_{name}"))).unwrap();
+    let figure = |name: &str| {
+        std::fs::read(sent.path().join(format!(
+            "figures/leo_venting_vent.scale-3_lidar.sigma_range-loguniform-0.05-0.2_{name}"
+        )))
+        .unwrap()
+    };
     // What each must show beside its curves: names, quantities with units.
     for (name, shows) in [
         (
