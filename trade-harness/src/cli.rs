@@ -113,8 +113,9 @@ pub struct StudyArgs {
     /// mission.vent.co2.period_s=300; repeatable
     #[arg(long = "set", value_name = "MODEL.VARIABLE=VALUE")]
     pub assignments: Vec<Assignment>,
-    /// Draw a Real parameter anew in each run, the same for all filters; uniform or loguniform, repeatable
-    #[arg(long = "vary", value_name = "MODEL.VARIABLE=uniform:LOW:HIGH")]
+    /// Draw a Real parameter anew in each run, the same for all filters: uniform:LOW:HIGH, loguniform:LOW:HIGH,
+    /// normal:MEAN:SIGMA, lognormal:MEDIAN:FACTOR (one sigma of the logarithm), choice:VALUE:VALUE:...; repeatable
+    #[arg(long = "vary", value_name = "MODEL.VARIABLE=DISTRIBUTION")]
     pub variations: Vec<Variation>,
     /// Communication step, s [default: the truth's sample period]
     #[arg(long, value_name = "H")]

@@ -232,7 +232,7 @@ impl Models {
                 distribution,
             } = variation;
             let model = self.require(name, &variation.to_string())?;
-            check_real_range(model, variable, distribution.ends())?;
+            check_real_range(model, variable, &distribution.extremes())?;
             let set = assignments.iter().any(|a| a.model == *name && a.variable == *variable);
             let earlier = &variations[..draw];
             if set || earlier.iter().any(|v| v.model == *name && v.variable == *variable) {
@@ -243,7 +243,7 @@ impl Models {
             }
             let varied = Varied {
                 name: model.contract_name(variable).to_owned(),
-                distribution: *distribution,
+                distribution: distribution.clone(),
                 draw,
             };
             let parts = std::iter::once(&mut *truth).chain(filters.iter_mut());

@@ -185,11 +185,11 @@ fn check_parameter(model: &Model, variable: &str) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Refuses a range of anything but a Real parameter that can take both of its ends.
+/// Refuses to spread anything but a Real parameter that can take these values.
 ///
 /// # Errors
-/// What the variable is, or which end it cannot take.
-pub fn check_real_range(model: &Model, variable: &str, ends: [f64; 2]) -> Result<(), StudyError> {
+/// What the variable is, or which value it cannot take.
+pub fn check_real_range(model: &Model, variable: &str, values: &[f64]) -> Result<(), StudyError> {
     check_parameter(model, variable)?;
     let described = model.description().variable(variable)?;
     if described.base_type() != BaseType::Real {
@@ -199,9 +199,9 @@ pub fn check_real_range(model: &Model, variable: &str, ends: [f64; 2]) -> Result
             found: described.base_type(),
         });
     }
-    for end in ends {
+    for value in values {
         described
-            .parse_value(&end.to_string())
+            .parse_value(&value.to_string())
             .map_err(|source| StudyError::Value {
                 model: model.name.clone(),
                 source: Box::new(source),

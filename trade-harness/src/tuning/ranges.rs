@@ -165,7 +165,7 @@ fn check(model: &Model, name: &str, low: f64, high: f64) -> Result<(), HarnessEr
             high,
         });
     }
-    Ok(check_real_range(model, name, [low, high])?)
+    Ok(check_real_range(model, name, &[low, high])?)
 }
 
 fn start(description: &ModelDescription, participant: &Participant, name: &str) -> Option<f64> {
