@@ -47,6 +47,8 @@ pub enum Source {
     VentDirection = 16,
     /// Noise of a named sensor of the target.
     SensorNoise = 17,
+    /// Points of the Latin hypercubes of a study's grids.
+    Grid = 18,
 }
 
 /// Generator for one cause of randomness in one run; equal arguments give equal streams.

@@ -91,7 +91,7 @@ impl Models {
             spec: self.spec(plan, world)?,
             runs: plan.runs,
             jobs: plan.threads(),
-            case: plan.case.clone(),
+            case: plan.case_text(),
         })
     }
 

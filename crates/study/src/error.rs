@@ -281,6 +281,20 @@ pub enum StudyError {
     /// Somebody has asked the process to stop.
     #[error("stopped as asked; what is finished is kept")]
     Stopped,
+    /// A study file that cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// A study file that says something wrong.
+    #[error("{0}")]
+    FileProblem(interface::mission::Problem),
+    /// A plan that no file can hold.
+    #[error("the study cannot be written as a file: {0}")]
+    Unwritten(toml::ser::Error),
     /// A plan that no study can follow.
     #[error("plan: {field} {problem}")]
     Plan {

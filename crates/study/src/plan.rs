@@ -4,13 +4,17 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use cosim::Scheme;
+use interface::mission::Phase;
 use serde::{Deserialize, Serialize};
 
 use crate::arguments::{Assignment, FilterChoice, ForeignFilter, Mapping, PAPER};
 use crate::error::StudyError;
+use crate::grid::{Grid, points};
+use crate::requirement::Requirement;
 use crate::spec::Spec;
 use crate::tuned::TunedSet;
 use crate::variation::Variation;
+use crate::worker::Limits;
 use crate::world::World;
 use crate::worlds::{From, MISSION, Source};
 
@@ -28,7 +32,8 @@ use crate::worlds::{From, MISSION, Source};
 /// )
 /// .unwrap();
 /// assert!(plan.check().is_ok());
-/// assert_eq!((plan.seed, plan.case.as_str()), (1, "nominal"));
+/// assert_eq!(plan.seed, 1);
+/// assert_eq!(plan.case_text(), "vent.scale-10_lidar.sigma_range-loguniform-0.01-1");
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -39,9 +44,9 @@ pub struct Plan {
     /// Mission files, a study each, after those.
     #[serde(rename = "mission")]
     pub missions: Vec<PathBuf>,
-    /// Text of the `case` column; with the world it names a study.
-    pub case: String,
-    /// Filters of fmu-nav, and tuned foreign ones; `None` for those of each world.
+    /// Text of the `case` column; with the world it names a study. `None`: what differs from the missions as they stand.
+    pub case: Option<String>,
+    /// Filters of fmu-nav, and tuned foreign ones; `None` for those of each world, [`ALL`] for every one with a meaning there.
     pub filters: Option<Vec<FilterChoice>>,
     /// Runs of each study; run j has the parameter `run` = j.
     pub runs: u32,
@@ -74,8 +79,108 @@ pub struct Plan {
     /// Names in foreign FMUs.
     #[serde(rename = "map")]
     pub mappings: Vec<Mapping>,
+    /// Files of a search whose sets join `tuned`.
+    #[serde(rename = "tuned_file", skip_serializing_if = "Vec::is_empty")]
+    pub tuned_files: Vec<PathBuf>,
     /// Parameter sets that a search has found; they stand beside the presets of the FMUs.
     pub tuned: Vec<TunedSet>,
+    /// Where runs are made.
+    #[serde(skip_serializing_if = "is_default")]
+    pub isolation: Isolation,
+    /// What is written, and where.
+    #[serde(skip_serializing_if = "is_default")]
+    pub output: Output,
+    /// Settings that differ from case to case: each case is a study of its own, in the same worlds.
+    #[serde(rename = "grid", skip_serializing_if = "Vec::is_empty")]
+    pub grids: Vec<Grid>,
+    /// Named parts of the runs.
+    #[serde(rename = "phase", skip_serializing_if = "Vec::is_empty")]
+    pub phases: Vec<Phase>,
+    /// What every case must show.
+    #[serde(rename = "requirement", skip_serializing_if = "Vec::is_empty")]
+    pub requirements: Vec<Requirement>,
+}
+
+/// Name in `filters` that stands for every filter of fmu-nav that has a meaning in the world.
+pub const ALL: &str = "all";
+
+/// Where runs are made: in the process of the study, or in others that may die of an FMU.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Isolation {
+    /// In workers or not; `None`: as soon as a foreign FMU takes part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub isolate: Option<bool>,
+    /// Longest time of one call of an FMU in a worker, s.
+    pub call_limit_s: f64,
+    /// Longest time of a run in a worker, s.
+    pub run_limit_s: f64,
+    /// Most memory of a worker, MiB.
+    pub memory_limit_mib: u64,
+}
+
+impl Default for Isolation {
+    fn default() -> Self {
+        let limits = Limits::default();
+        Self {
+            isolate: None,
+            call_limit_s: limits.call_s,
+            run_limit_s: limits.run_s,
+            memory_limit_mib: limits.memory >> 20,
+        }
+    }
+}
+
+impl Isolation {
+    /// Limits of the workers.
+    pub fn limits(&self) -> Limits {
+        Limits {
+            call_s: self.call_limit_s,
+            run_s: self.run_limit_s,
+            memory: self.memory_limit_mib << 20,
+        }
+    }
+
+    fn check(&self) -> Result<(), String> {
+        for (name, limit) in [("call_limit_s", self.call_limit_s), ("run_limit_s", self.run_limit_s)] {
+            if !(1e-3..=1e9).contains(&limit) {
+                return Err(format!("{name} = {limit}: give a positive time in seconds"));
+            }
+        }
+        if (64..=1 << 24).contains(&self.memory_limit_mib) {
+            Ok(())
+        } else {
+            Err(format!(
+                "memory_limit_mib = {}: give 64 to {}",
+                self.memory_limit_mib,
+                1 << 24
+            ))
+        }
+    }
+}
+
+/// What a study writes, and where.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Output {
+    /// Folder of the results; `None`: the command's own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub folder: Option<PathBuf>,
+    /// Whether report.html is written.
+    pub report: bool,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self {
+            folder: None,
+            report: true,
+        }
+    }
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 impl Default for Plan {
@@ -83,7 +188,7 @@ impl Default for Plan {
         Self {
             scenarios: vec!["leo_venting".to_owned()],
             missions: Vec::new(),
-            case: "nominal".to_owned(),
+            case: None,
             filters: None,
             runs: 100,
             seed: 1,
@@ -97,7 +202,13 @@ impl Default for Plan {
             foreign: Vec::new(),
             allow_truth: false,
             mappings: Vec::new(),
+            tuned_files: Vec::new(),
             tuned: Vec::new(),
+            isolation: Isolation::default(),
+            output: Output::default(),
+            grids: Vec::new(),
+            phases: Vec::new(),
+            requirements: Vec::new(),
         }
     }
 }
@@ -118,10 +229,113 @@ impl Plan {
         if let Some(duration) = self.duration_s.filter(|d| !(d.is_finite() && *d > 0.0)) {
             return wrong("duration_s", format!("= {duration}: give a positive time in seconds"));
         }
-        if let Err(problem) = check_case(&self.case) {
-            return wrong("case", format!("= {:?}: {problem}", self.case));
+        if let Some(case) = &self.case
+            && let Err(problem) = check_case(case)
+        {
+            return wrong("case", format!("= {case:?}: {problem}"));
+        }
+        if let Some(step) = self.step_s.filter(|s| !(s.is_finite() && *s > 0.0)) {
+            return wrong("step_s", format!("= {step}: give a positive time in seconds"));
+        }
+        if let Err(problem) = self.isolation.check() {
+            return wrong("isolation", problem);
+        }
+        self.check_phases()?;
+        for (requirement, number) in self.requirements.iter().zip(1..) {
+            if let Err(problem) = requirement.check() {
+                return wrong(
+                    "requirement",
+                    format!("number {number}, on {}, {problem}", requirement.metric),
+                );
+            }
+            let Some(phase) = &requirement.phase else { continue };
+            let names: Vec<&str> = self.phases.iter().map(|p| p.name.as_str()).collect();
+            let problem = if names.contains(&phase.as_str()) {
+                "names a phase, and phases are not scored yet; leave phase out, and set mission.time.scored_from_s to where \
+                 the phase begins"
+                    .to_owned()
+            } else {
+                format!("names phase '{phase}', which is none of: {}", names.join(", "))
+            };
+            return wrong(
+                "requirement",
+                format!("number {number}, on {}, {problem}", requirement.metric),
+            );
+        }
+        self.cases().map(drop)
+    }
+
+    fn check_phases(&self) -> Result<(), StudyError> {
+        for (place, phase) in self.phases.iter().enumerate() {
+            let Phase { name, from_s, to_s } = phase;
+            let problem = if let Err(problem) = check_case(name) {
+                format!("{name:?}: {problem}")
+            } else if !(*from_s >= 0.0 && from_s < to_s && to_s.is_finite()) {
+                format!("'{name}' from {from_s} to {to_s} s is empty: give 0 <= from_s < to_s")
+            } else if self.phases[..place].iter().any(|other| other.name == *name) {
+                format!("'{name}' stands there twice; give each a name of its own")
+            } else {
+                continue;
+            };
+            return Err(StudyError::Plan {
+                field: "phase",
+                problem,
+            });
         }
         Ok(())
+    }
+
+    /// The plan of each case of the grids, each with its settings and its name; without a grid, the plan itself.
+    ///
+    /// # Errors
+    /// [`StudyError::Plan`] for a grid that is none, [`StudyError::VariedTwice`] for what it sets beside somebody else.
+    pub fn cases(&self) -> Result<Vec<Self>, StudyError> {
+        if self.grids.is_empty() {
+            let case = Some(self.case_text());
+            return Ok(vec![Self { case, ..self.clone() }]);
+        }
+        let wrong = |problem| StudyError::Plan { field: "grid", problem };
+        let points = points(&self.grids, self.seed).map_err(wrong)?;
+        let mut cases: Vec<Self> = Vec::new();
+        for point in points {
+            for (index, a) in point.iter().enumerate() {
+                let same = |model: &str, variable: &str| model == a.model && variable == a.variable;
+                let elsewhere = self.assignments.iter().chain(&point[..index]);
+                let varied = self.variations.iter().any(|v| same(&v.model, &v.variable));
+                if varied || elsewhere.into_iter().any(|b| same(&b.model, &b.variable)) {
+                    let text = format!(
+                        "sets {}.{}, which stands elsewhere in the study too",
+                        a.model, a.variable
+                    );
+                    return Err(wrong(text));
+                }
+            }
+            let base = self.case.clone().map_or_else(|| self.deviations(), |case| vec![case]);
+            let own = point.iter().map(|a| format!("{}-{}", a.variable, a.value));
+            let name = file_name(&base.into_iter().chain(own).collect::<Vec<_>>());
+            if cases.iter().any(|case| case.case.as_deref() == Some(name.as_str())) {
+                return Err(wrong(format!("holds case {name} twice")));
+            }
+            cases.push(Self {
+                case: Some(name),
+                assignments: [&self.assignments[..], &point[..]].concat(),
+                grids: Vec::new(),
+                ..self.clone()
+            });
+        }
+        Ok(cases)
+    }
+
+    /// The plan of the case of this name; the plan itself where it has none of that name.
+    pub fn of_case(&self, name: &str) -> Self {
+        let cases = self.cases().unwrap_or_default();
+        let found = cases.into_iter().find(|case| case.case.as_deref() == Some(name));
+        found.unwrap_or_else(|| self.clone())
+    }
+
+    /// Text of the `case` column: as given, or what differs.
+    pub fn case_text(&self) -> String {
+        self.case.clone().unwrap_or_else(|| self.case_name())
     }
 
     /// The worlds, in the order of the plan.
@@ -192,6 +406,7 @@ impl Plan {
             // What the file of a changed mission holds is not set again.
             assignments: self.in_fmus().cloned().collect(),
             filters: Some(labels.filter_map(|label| label.parse().ok()).collect()),
+            case: Some(self.case_text()),
             jobs: None,
             duration_s: Some(spec.world.duration_s),
             step_s: Some(spec.step),
@@ -217,20 +432,7 @@ impl Plan {
         if differs.is_empty() {
             return "nominal".to_owned();
         }
-        let plain = |c: char| {
-            if c.is_ascii_alphanumeric() || matches!(c, '.' | '_') {
-                c
-            } else {
-                '-'
-            }
-        };
-        let name: String = differs.join("_").chars().map(plain).collect();
-        let name = name.trim_matches(['-', '.']).to_owned();
-        if name.len() <= LONGEST_CASE {
-            return name;
-        }
-        let whole = crc32fast::hash(differs.join("_").as_bytes());
-        format!("{}-{whole:08x}", &name[..LONGEST_CASE - 9])
+        file_name(&differs)
     }
 
     /// What differs from the missions as they stand, a short text each. Filters, runs and seeds are no difference, nor is how
@@ -257,6 +459,24 @@ impl Plan {
             .chain(scheme)
             .collect()
     }
+}
+
+/// A name for files from what differs; a long one is cut, and a checksum tells it from others.
+fn file_name(differs: &[String]) -> String {
+    let plain = |c: char| {
+        if c.is_ascii_alphanumeric() || matches!(c, '.' | '_') {
+            c
+        } else {
+            '-'
+        }
+    };
+    let name: String = differs.join("_").chars().map(plain).collect();
+    let name = name.trim_matches(['-', '.']).to_owned();
+    if name.len() <= LONGEST_CASE {
+        return name;
+    }
+    let whole = crc32fast::hash(differs.join("_").as_bytes());
+    format!("{}-{whole:08x}", &name[..LONGEST_CASE - 9])
 }
 
 /// Checks the name of a case, which stands in file names.
@@ -305,6 +525,7 @@ pub fn scheme_name(scheme: Scheme) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grid::Setting;
 
     fn read(text: &str) -> Result<Plan, serde_json::Error> {
         serde_json::from_str(text)
@@ -316,7 +537,7 @@ mod tests {
         let plan = Plan {
             scenarios: vec!["formation".to_owned()],
             missions: vec!["a.toml".into()],
-            case: "odd".to_owned(),
+            case: Some("odd".to_owned()),
             filters: Some(vec!["snc".parse().unwrap(), "milton@consistent".parse().unwrap()]),
             runs: 7,
             seed: 3,
@@ -341,9 +562,42 @@ mod tests {
                 search_nees: None,
                 feasible: true,
             }],
+            tuned_files: vec!["sets.json".into()],
+            isolation: Isolation {
+                isolate: Some(true),
+                run_limit_s: 12.5,
+                ..Isolation::default()
+            },
+            output: Output {
+                folder: Some("there".into()),
+                report: false,
+            },
+            grids: vec![Grid {
+                set: [(
+                    "fmu-truth.vent.hold".to_owned(),
+                    vec![Setting::Whole(1), Setting::Number(2.5)],
+                )]
+                .into(),
+                ..Grid::default()
+            }],
+            phases: vec![Phase {
+                name: "end".to_owned(),
+                from_s: 50.0,
+                to_s: 100.0,
+            }],
+            requirements: vec![Requirement {
+                metric: "nees".to_owned(),
+                filter: Some("snc".to_owned()),
+                phase: None,
+                at_most: Some(1.5),
+                at_least: None,
+                confidence: Some(0.95),
+            }],
         };
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(read(&text).unwrap(), plan, "{text}");
+        let file = plan.to_toml().unwrap();
+        assert_eq!(Plan::parse("file", &file).unwrap(), plan, "{file}");
         assert!(text.contains("\"set\":[\"fmu-truth.vent.scale=10\"]"), "{text}");
     }
 
@@ -373,6 +627,50 @@ mod tests {
             plan.worlds(Path::new("none")),
             Err(StudyError::ScenarioTwice { .. })
         ));
+    }
+
+    #[test]
+    fn cases_of_a_grid_are_named_by_their_settings_and_share_the_rest() {
+        let names = |text: &str| {
+            let plan = Plan::parse("s.toml", text).unwrap();
+            let cases = plan.cases().map_err(|error| error.to_string())?;
+            assert!(cases.iter().all(|case| case.seed == plan.seed && case.grids.is_empty()));
+            Ok::<_, String>(cases.into_iter().filter_map(|case| case.case).collect::<Vec<_>>())
+        };
+        let grid = "[[grid]]\nset = { \"fmu-truth.vent.scale\" = [1, 10] }\n";
+        assert_eq!(names("runs = 3\n").unwrap(), ["nominal"]);
+        assert_eq!(names(grid).unwrap(), ["vent.scale-1", "vent.scale-10"]);
+        let base = format!("case = \"odd\"\n{grid}");
+        assert_eq!(names(&base).unwrap(), ["odd_vent.scale-1", "odd_vent.scale-10"]);
+        let twice = format!("set = [\"fmu-truth.vent.scale=3\"]\n{grid}");
+        assert!(names(&twice).unwrap_err().contains("stands elsewhere"));
+        let same = "[[grid]]\nset = { \"fmu-truth.vent.scale\" = [1, 1] }\n";
+        assert!(names(same).unwrap_err().contains("vent.scale-1 twice"));
+    }
+
+    #[test]
+    fn phases_and_requirements_are_checked_by_name() {
+        let phase = "[[phase]]\nname = \"end\"\nfrom_s = 10\nto_s = 20\n";
+        let asked = "[[requirement]]\nmetric = \"nees\"\nat_most = 2\n";
+        for (text, says) in [
+            (
+                "[[phase]]\nname = \"end\"\nfrom_s = 20\nto_s = 10\n".to_owned(),
+                "is empty",
+            ),
+            (format!("{phase}{phase}"), "twice"),
+            (format!("{asked}phase = \"end\"\n"), "none of"),
+            (format!("{asked}phase = \"end\"\n{phase}"), "not scored yet"),
+            ("[[requirement]]\nmetric = \"nees\"\n".to_owned(), "no bound"),
+        ] {
+            let error = Plan::parse("s.toml", &text).unwrap().check().unwrap_err().to_string();
+            assert!(error.contains(says), "{text}: {error}");
+        }
+        assert!(
+            Plan::parse("s.toml", &format!("{asked}{phase}"))
+                .unwrap()
+                .check()
+                .is_ok()
+        );
     }
 
     #[test]

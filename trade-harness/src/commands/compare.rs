@@ -17,14 +17,17 @@ use crate::store::{Claim, StudyFolder, identity};
 pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
     end_when_asked()?;
     let plan = plan_of(&args.study, &args.worlds, &args.work)?;
-    let case = args.case.clone().unwrap_or_else(|| plan.case.clone());
+    let case = args.case.clone().unwrap_or_else(|| plan.case_text());
     let differs = plan.deviations();
     if case == "nominal" && !differs.is_empty() {
         return Err(HarnessError::NotNominal {
             differs: differs.join(", "),
         });
     }
-    let plan = Plan { case, ..plan };
+    let plan = Plan {
+        case: Some(case),
+        ..plan
+    };
     let models = models(&plan, &args.study.build)?;
     let foreign = plan.truth.is_some() || !plan.foreign.is_empty();
     let isolate = args.isolation.isolate || (foreign && !args.isolation.no_isolate);

@@ -141,7 +141,7 @@ pub(super) fn plan_of(study: &StudyArgs, worlds: &WorldArgs, work: &WorkArgs) ->
         ..plan(study)?
     };
     Ok(Plan {
-        case: plan.case_name(),
+        case: Some(plan.case_name()),
         ..plan
     })
 }

@@ -24,7 +24,7 @@ impl Request {
         Self {
             plan: Plan {
                 scenarios: vec![world.to_owned()],
-                case: case.to_owned(),
+                case: Some(case.to_owned()),
                 filters: Some(filters.iter().filter_map(|label| label.parse().ok()).collect()),
                 ..Plan::default()
             },
@@ -39,7 +39,7 @@ impl Request {
 
     /// Text of the `case` column; with the world it names the study.
     pub fn case(&self) -> &str {
-        &self.plan.case
+        self.plan.case.as_deref().unwrap_or_default()
     }
 
     /// Labels of the filters.

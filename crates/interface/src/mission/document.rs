@@ -179,23 +179,7 @@ impl Document {
 
     /// What the parser says, at the place of the key that it names.
     fn told(&self, error: &toml::de::Error) -> Problem {
-        let what = friendlier(error.message(), &self.text, error.span());
-        // A table that is read whole before its kind is known gives its own place for what is wrong inside.
-        let named = error
-            .message()
-            .strip_prefix("unknown field `")
-            .and_then(|rest| rest.split('`').next());
-        let place = error.span().map(|span| {
-            let inside = named.and_then(|key| {
-                let text = self.text.get(span.start..)?;
-                let at = text.match_indices(key).map(|(at, _)| at).find(|at| {
-                    let (before, after) = (text[..*at].chars().next_back(), text[at + key.len()..].trim_start());
-                    after.starts_with('=') && !before.is_some_and(|c| c.is_alphanumeric() || c == '_')
-                })?;
-                Some(span.start + at..span.start + at + key.len())
-            });
-            inside.unwrap_or(span)
-        });
+        let (place, what) = explained(&self.text, error);
         self.problem(place, what)
     }
 
@@ -215,6 +199,42 @@ impl Document {
             what,
         }
     }
+}
+
+impl Problem {
+    /// What a TOML parser says of a text, in the words of mission files: with the nearest name that is allowed.
+    ///
+    /// * `origin`: the file, or what the text is called.
+    pub fn of_toml(origin: &str, text: &str, error: &toml::de::Error) -> Self {
+        let (span, what) = explained(text, error);
+        Self {
+            origin: origin.to_owned(),
+            place: span.map(|span| place(text, span.start)),
+            what,
+        }
+    }
+}
+
+/// What the parser says, and the place of the key that it names.
+fn explained(text: &str, error: &toml::de::Error) -> (Option<Range<usize>>, String) {
+    let what = friendlier(error.message(), text, error.span());
+    // A table that is read whole before its kind is known gives its own place for what is wrong inside.
+    let named = error
+        .message()
+        .strip_prefix("unknown field `")
+        .and_then(|rest| rest.split('`').next());
+    let place = error.span().map(|span| {
+        let inside = named.and_then(|key| {
+            let text = text.get(span.start..)?;
+            let at = text.match_indices(key).map(|(at, _)| at).find(|at| {
+                let (before, after) = (text[..*at].chars().next_back(), text[at + key.len()..].trim_start());
+                after.starts_with('=') && !before.is_some_and(|c| c.is_alphanumeric() || c == '_')
+            })?;
+            Some(span.start + at..span.start + at + key.len())
+        });
+        inside.unwrap_or(span)
+    });
+    (place, what)
 }
 
 /// Line and column, from 1, of a byte.
