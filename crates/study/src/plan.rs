@@ -234,9 +234,6 @@ impl Plan {
         {
             return wrong("case", format!("= {case:?}: {problem}"));
         }
-        if let Some(step) = self.step_s.filter(|s| !(s.is_finite() && *s > 0.0)) {
-            return wrong("step_s", format!("= {step}: give a positive time in seconds"));
-        }
         if let Err(problem) = self.isolation.check() {
             return wrong("isolation", problem);
         }

@@ -321,7 +321,8 @@ fn a_plan_becomes_a_study() {
     let world = &plan.worlds(std::path::Path::new("unused")).unwrap()[0];
     let study = models.study(&plan, world).unwrap();
     let spec = &study.spec;
-    assert_eq!((study.runs, study.case.as_str(), spec.seed), (3, "nominal", 9));
+    assert_eq!((study.runs, spec.seed), (3, 9));
+    assert_eq!(study.case, "sample_period-0.5_fixed_q.s-uniform-1-2_duration-100");
     assert_eq!(
         (spec.sample_period.to_bits(), spec.step.to_bits()),
         (0.5_f64.to_bits(), 0.5_f64.to_bits())
