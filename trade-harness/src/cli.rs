@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use study::{Assignment, FilterChoice, ForeignFilter, Limits, Mapping, Shard, Variation, check_case};
+use study::{Assignment, FilterChoice, ForeignFilter, Grid, Isolation, Mapping, Plan, Shard, Variation, check_case};
 
 use crate::pack;
 use crate::tuning::ranges::Range;
@@ -77,26 +77,22 @@ pub struct WorldArgs {
     pub missions: Vec<PathBuf>,
 }
 
-impl WorldArgs {
-    /// Names of missions: those given, or the first when no mission is given at all.
-    pub fn named(&self) -> Vec<String> {
-        if self.scenarios.is_empty() && self.missions.is_empty() {
-            vec!["leo_venting".to_owned()]
-        } else {
-            self.scenarios.clone()
-        }
-    }
-}
-
 /// How many runs, on how many threads.
 #[derive(Debug, Clone, Args)]
 pub struct WorkArgs {
-    /// Runs of each study
-    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=i64::from(i32::MAX)))]
-    pub runs: u32,
+    /// Runs of each study [default: 100]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=i64::from(i32::MAX)))]
+    pub runs: Option<u32>,
     /// Threads [default: all cores]
     #[arg(long)]
     pub jobs: Option<std::num::NonZeroUsize>,
+}
+
+impl WorkArgs {
+    /// Runs asked for, or those of a plan that does not tell.
+    pub fn runs(&self) -> u32 {
+        self.runs.unwrap_or(Plan::default().runs)
+    }
 }
 
 /// Which filters, which parameters.
@@ -106,9 +102,9 @@ pub struct StudyArgs {
     /// list]
     #[arg(long, value_name = "NAME[@PRESET],...", value_delimiter = ',', value_parser = optional_choice)]
     pub filters: Vec<OptionalChoice>,
-    /// Seed of the study; with the number of a run it selects every random stream
-    #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_parser = clap::value_parser!(i32).range(0..))]
-    pub seed: i32,
+    /// Seed of the study; with the number of a run it selects every random stream [default: 1]
+    #[arg(long, allow_negative_numbers = true, value_parser = clap::value_parser!(i32).range(0..))]
+    pub seed: Option<i32>,
     /// Set a parameter of fmu-truth, fmu-nav or a foreign filter, after the preset, or any key of the mission, as in
     /// mission.vent.co2.period_s=300; repeatable
     #[arg(long = "set", value_name = "MODEL.VARIABLE=VALUE")]
@@ -120,9 +116,9 @@ pub struct StudyArgs {
     /// Communication step, s [default: the truth's sample period]
     #[arg(long, value_name = "H")]
     pub step: Option<f64>,
-    /// When values are handed over
-    #[arg(long, value_enum, default_value_t = SchemeChoice::GaussSeidel)]
-    pub scheme: SchemeChoice,
+    /// When values are handed over [default: gauss-seidel]
+    #[arg(long, value_enum)]
+    pub scheme: Option<SchemeChoice>,
     /// Foreign FMU in the place of fmu-truth
     #[arg(long, value_name = "PATH")]
     pub truth: Option<PathBuf>,
@@ -141,6 +137,13 @@ pub struct StudyArgs {
     /// Where our FMUs come from.
     #[command(flatten)]
     pub build: BuildArgs,
+}
+
+impl StudyArgs {
+    /// Seed asked for, or that of a plan that does not tell.
+    pub fn seed(&self) -> i32 {
+        self.seed.unwrap_or(Plan::default().seed)
+    }
 }
 
 /// An element of `--filters`; `--filters ''` is one that chooses nothing.
@@ -255,9 +258,18 @@ pub struct CompareArgs {
     /// How many runs.
     #[command(flatten)]
     pub work: WorkArgs,
-    /// Folder for the results
-    #[arg(long, value_name = "DIR", default_value = "results/compare")]
-    pub out: PathBuf,
+    /// A study file, which says all that the options say and more; options go before it
+    #[arg(long = "study", value_name = "FILE")]
+    pub file: Option<PathBuf>,
+    /// Folder for the results [default: results/compare, or results/NAME for the study file NAME.toml]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Cases with each of these values, combined with those of every other --grid; repeatable
+    #[arg(long = "grid", value_name = "MODEL.VARIABLE=VALUE,VALUE,...", value_parser = Grid::axis)]
+    pub grids: Vec<Grid>,
+    /// Length of the runs, s [default: the mission's]
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub duration: Option<f64>,
     /// Text of the 'case' column [default: nominal, or what differs from it]
     #[arg(long, value_name = "NAME", value_parser = case_name)]
     pub case: Option<String>,
@@ -297,29 +309,31 @@ pub struct FolderArgs {
 pub struct IsolationArgs {
     /// Make runs in worker processes, so that an FMU that crashes, loops or eats memory costs its own runs alone [default: as
     /// soon as a foreign FMU takes part]
-    #[arg(long, overrides_with = "no_isolate")]
+    #[arg(long, conflicts_with = "no_isolate")]
     pub isolate: bool,
     /// Make runs in this process, foreign FMUs or not
     #[arg(long)]
     pub no_isolate: bool,
-    /// Longest time of one call of an FMU in a worker, s
-    #[arg(long, value_name = "S", default_value_t = Limits::default().call_s, value_parser = seconds)]
-    pub call_limit: f64,
-    /// Longest time of a run in a worker, s
-    #[arg(long, value_name = "S", default_value_t = Limits::default().run_s, value_parser = seconds)]
-    pub run_limit: f64,
-    /// Most memory of a worker, MiB
-    #[arg(long, value_name = "MIB", default_value_t = Limits::default().memory >> 20, value_parser = clap::value_parser!(u64).range(64..=1 << 24))]
-    pub memory_limit: u64,
+    /// Longest time of one call of an FMU in a worker, s [default: 60]
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub call_limit: Option<f64>,
+    /// Longest time of a run in a worker, s [default: 3600]
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub run_limit: Option<f64>,
+    /// Most memory of a worker, MiB [default: 2048]
+    #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(64..=1 << 24))]
+    pub memory_limit: Option<u64>,
 }
 
 impl IsolationArgs {
-    /// Limits of the workers.
-    pub fn limits(&self) -> Limits {
-        Limits {
-            call_s: self.call_limit,
-            run_s: self.run_limit,
-            memory: self.memory_limit << 20,
+    /// What is asked for here, else what a plan says.
+    pub fn changed(&self, plan: &Isolation) -> Isolation {
+        let asked = (self.isolate || self.no_isolate).then_some(self.isolate);
+        Isolation {
+            isolate: asked.or(plan.isolate),
+            call_limit_s: self.call_limit.unwrap_or(plan.call_limit_s),
+            run_limit_s: self.run_limit.unwrap_or(plan.run_limit_s),
+            memory_limit_mib: self.memory_limit.unwrap_or(plan.memory_limit_mib),
         }
     }
 }
@@ -438,7 +452,7 @@ pub struct ReplayArgs {
 
 /// `reproduce`.
 #[derive(Debug, Args)]
-#[command(mut_arg("runs", |a| a.help("Runs of each study; the bounds are meant for 100")))]
+#[command(mut_arg("runs", |a| a.default_value("100").help("Runs of each study; the bounds are meant for 100")))]
 pub struct ReproduceArgs {
     /// How many runs.
     #[command(flatten)]
@@ -484,10 +498,11 @@ mod tests {
     fn defaults_are_those_of_the_manual() {
         let args = compare(&[]).unwrap();
         assert!(args.study.filters.is_empty() && args.study.variations.is_empty());
-        assert_eq!((args.work.runs, args.study.seed, args.case.as_deref()), (100, 1, None));
-        assert_eq!(args.worlds.named(), ["leo_venting"]);
-        assert!(compare(&["--mission", "a.toml"]).unwrap().worlds.named().is_empty());
-        assert_eq!(args.out, PathBuf::from("results/compare"));
+        assert_eq!(
+            (args.work.runs, args.study.seed, args.case.as_deref()),
+            (None, None, None)
+        );
+        assert!(args.worlds.scenarios.is_empty() && args.out.is_none());
         assert!(args.study.step.is_none() && args.work.jobs.is_none());
     }
 
@@ -499,7 +514,7 @@ mod tests {
             Command::Reproduce(args) => args.work.runs,
             other => unreachable!("{other:?}"),
         };
-        assert_eq!(["compare", "tune", "reproduce"].map(runs), [100, 8, 100]);
+        assert_eq!(["compare", "tune", "reproduce"].map(runs), [None, Some(8), Some(100)]);
     }
 
     #[test]
@@ -509,7 +524,7 @@ mod tests {
         let args = compare(&line.split_whitespace().collect::<Vec<_>>()).unwrap();
         assert_eq!(args.worlds.scenarios, ["a", "b"]);
         assert_eq!(args.study.assignments.len(), 2);
-        assert_eq!(args.study.scheme, SchemeChoice::Jacobi);
+        assert_eq!(args.study.scheme, Some(SchemeChoice::Jacobi));
         assert_eq!(args.study.foreign[0].label, "other");
         assert_eq!(args.study.mappings[0].own, "y");
         let none = compare(&["--filters", "", "--nav", "other=p.fmu"]).unwrap();

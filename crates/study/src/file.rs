@@ -35,7 +35,14 @@ impl Plan {
     /// # Errors
     /// [`StudyError::FileProblem`] with line and column.
     pub fn parse(origin: &str, text: &str) -> Result<Self, StudyError> {
-        toml::from_str(text).map_err(|error| StudyError::FileProblem(Problem::of_toml(origin, text, &error)))
+        let wrong = |error| StudyError::FileProblem(Problem::of_toml(origin, text, &error));
+        let mut plan: Self = toml::from_str(text).map_err(wrong)?;
+        // A file that names missions alone wants no other beside them.
+        let told: toml::Table = toml::from_str(text).map_err(wrong)?;
+        if told.contains_key("mission") && !told.contains_key("scenario") {
+            plan.scenarios.clear();
+        }
+        Ok(plan)
     }
 
     /// The text of a study file that holds all of the plan.
@@ -118,9 +125,10 @@ mod tests {
     fn paths_start_from_the_folder_of_the_file() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("study.toml");
-        let text = "scenario = []\nmission = [\"a/m.toml\", \"/b.toml\"]\nnav = [\"x=x.fmu\"]\ntruth = \"../t.fmu\"\n";
+        let text = "mission = [\"a/m.toml\", \"/b.toml\"]\nnav = [\"x=x.fmu\"]\ntruth = \"../t.fmu\"\n";
         std::fs::write(&path, text).unwrap();
         let plan = Plan::read(&path).unwrap();
+        assert!(plan.scenarios.is_empty());
         assert_eq!(plan.missions, [folder.path().join("a/m.toml"), "/b.toml".into()]);
         assert_eq!(plan.foreign[0].path, folder.path().join("x.fmu"));
         assert_eq!(plan.truth, Some(folder.path().join("../t.fmu")));

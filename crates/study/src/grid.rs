@@ -28,6 +28,19 @@ pub enum Setting {
     Text(String),
 }
 
+impl Setting {
+    /// What a text stands for, as TOML would read it.
+    fn of(text: &str) -> Self {
+        let text = text.trim();
+        match (text.parse(), text.parse(), text.parse()) {
+            (Ok(on), _, _) => Self::Switch(on),
+            (_, Ok(number), _) => Self::Whole(number),
+            (_, _, Ok(number)) => Self::Number(number),
+            _ => Self::Text(text.to_owned()),
+        }
+    }
+}
+
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -65,6 +78,23 @@ pub struct Grid {
 pub(crate) type Point = Vec<Assignment>;
 
 impl Grid {
+    /// One setting with its values, as a command line gives it.
+    ///
+    /// # Errors
+    /// A text that is not `MODEL.VARIABLE=VALUE,VALUE,...`.
+    pub fn axis(text: &str) -> Result<Self, String> {
+        let wrong = || format!("'{text}' is not MODEL.VARIABLE=VALUE,VALUE,..., as in fmu-truth.vent.scale=1,3,10");
+        let Assignment { model, variable, value } = text.parse().map_err(|_| wrong())?;
+        let values: Vec<Setting> = value.split(',').map(Setting::of).collect();
+        if value.split(',').any(str::is_empty) {
+            return Err(wrong());
+        }
+        Ok(Self {
+            set: [(format!("{model}.{variable}"), values)].into(),
+            ..Self::default()
+        })
+    }
+
     /// Settings of each case, in order.
     ///
     /// * `seed`, `place`: of the study and of the grid in it: they select the draws of a Latin hypercube.
@@ -233,6 +263,17 @@ mod tests {
                 "m.a=2 m.b=4 n.k=1"
             ]
         );
+    }
+
+    #[test]
+    fn an_axis_is_read_from_a_command_line() {
+        let grid = Grid::axis("fmu-truth.vent.scale=1,2.5,10").unwrap();
+        let told: Vec<String> = points(&[grid], 1).unwrap().iter().map(|p| p[0].to_string()).collect();
+        let expected = ["1", "2.5", "10"].map(|value| format!("fmu-truth.vent.scale={value}"));
+        assert_eq!(told, expected);
+        for bad in ["fmu-truth.vent.scale", "vent=1,2", "m.a=1,,2", "m.a="] {
+            assert!(Grid::axis(bad).unwrap_err().contains("VALUE,VALUE"), "{bad}");
+        }
     }
 
     /// Each tenth of each range holds one point: counted, whatever the draws.

@@ -330,6 +330,11 @@ impl Plan {
         found.unwrap_or_else(|| self.clone())
     }
 
+    /// Whether the worlds are the missions as they stand.
+    pub fn as_published(&self) -> bool {
+        self.assignments.is_empty() && self.variations.is_empty() && self.truth.is_none()
+    }
+
     /// Text of the `case` column: as given, or what differs.
     pub fn case_text(&self) -> String {
         self.case.clone().unwrap_or_else(|| self.case_name())
@@ -345,11 +350,13 @@ impl Plan {
         let named = self.scenarios.iter().map(|name| From::Name(name));
         let files = self.missions.iter().map(|path| From::File(path));
         let mut found: Vec<World> = Vec::new();
+        let case = self.case_text();
         for from in named.chain(files) {
             let source = Source {
                 from,
                 assignments: &self.assignments,
                 folder,
+                case: &case,
             };
             let world = source.world()?;
             if found.iter().any(|w| w.name == world.name) {

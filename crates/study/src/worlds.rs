@@ -36,6 +36,8 @@ pub(crate) struct Source<'a> {
     pub(crate) assignments: &'a [Assignment],
     /// Folder for the file of a mission that is changed or that the FMUs do not know by name.
     pub(crate) folder: &'a Path,
+    /// Case, which tells the files of a mission apart that is changed in several ways.
+    pub(crate) case: &'a str,
 }
 
 /// A mission's place.
@@ -69,7 +71,8 @@ impl Source<'_> {
                     source,
                 })?)
             }
-            _ if changed || !known => Some(self.write(&mut document, &mission.name)?),
+            _ if changed => Some(self.write(&mut document, &format!("{}_{}", mission.name, self.case))?),
+            _ if !known => Some(self.write(&mut document, &mission.name)?),
             _ => None,
         };
         // The FMU's parameter is the period of every sensor that has none of its own.
@@ -86,10 +89,10 @@ impl Source<'_> {
         })
     }
 
-    fn write(&self, document: &mut Document, name: &str) -> Result<PathBuf, StudyError> {
+    fn write(&self, document: &mut Document, stem: &str) -> Result<PathBuf, StudyError> {
         document.make_paths_absolute()?;
         let folder = self.folder.join("missions");
-        let path = folder.join(format!("{name}.toml"));
+        let path = folder.join(format!("{stem}.toml"));
         let written = std::fs::create_dir_all(&folder)
             .and_then(|()| std::fs::write(&path, document.text()))
             .and_then(|()| std::path::absolute(&path));
@@ -209,6 +212,7 @@ mod tests {
                 from,
                 assignments: &assignments,
                 folder: folder.path(),
+                case: "short",
             };
             source.world()
         };
@@ -216,6 +220,7 @@ mod tests {
         assert_eq!(plain.mission_file, None);
         let changed = world(&["mission.vent.co2.period_s=300"], From::Name("leo_venting")).unwrap();
         let file = changed.mission_file.unwrap();
+        assert!(file.ends_with("missions/leo_venting_short.toml"));
         assert_eq!(Mission::read(&file).unwrap().vents[0].period_s, Some(300.0));
         let same = world(&[], From::File(&file)).unwrap();
         assert_eq!(same.mission_file.as_deref(), Some(file.as_path()));

@@ -1,8 +1,9 @@
 //! `compare`: the Monte Carlo study.
 
 use std::io::Write;
+use std::path::{Path, PathBuf};
 
-use study::{Engine, Journal, Plan, Workers, rehearse};
+use study::{Engine, Journal, Output, Plan, Workers, rehearse};
 
 use super::finished::{Finished, finish};
 use super::kept::{KEPT, Kept, shard_folder};
@@ -16,21 +17,10 @@ use crate::store::{Claim, StudyFolder, identity};
 
 pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
     end_when_asked()?;
-    let plan = plan_of(&args.study, &args.worlds, &args.work)?;
-    let case = args.case.clone().unwrap_or_else(|| plan.case_text());
-    let differs = plan.deviations();
-    if case == "nominal" && !differs.is_empty() {
-        return Err(HarnessError::NotNominal {
-            differs: differs.join(", "),
-        });
-    }
-    let plan = Plan {
-        case: Some(case),
-        ..plan
-    };
+    let plan = asked(args)?;
     let models = models(&plan, &args.study.build)?;
     let foreign = plan.truth.is_some() || !plan.foreign.is_empty();
-    let isolate = args.isolation.isolate || (foreign && !args.isolation.no_isolate);
+    let isolate = plan.isolation.isolate.unwrap_or(foreign);
     let scratch = scratch()?;
     let trial = cast(&plan, &models, scratch.path())?;
     let mut workers = Vec::new();
@@ -41,7 +31,7 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
         }
         // A bad setting shows before the folder is touched; somebody's FMU is called by a worker alone.
         let told = if isolate {
-            let own = worker::workers(study, &plan, &models, scratch.path(), args.isolation.limits())?;
+            let own = worker::workers(study, &plan, &models, scratch.path(), plan.isolation.limits())?;
             let told = own.rehearse(&study.spec)?;
             workers.push(own);
             told
@@ -57,10 +47,11 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
         (_, true) => Claim::Force,
         _ => Claim::Fresh,
     };
+    let out_dir = results(args, &plan);
     let place = args
         .folder
         .shard
-        .map_or_else(|| args.out.clone(), |shard| shard_folder(&args.out, shard));
+        .map_or_else(|| out_dir.clone(), |shard| shard_folder(&out_dir, shard));
     if claim == Claim::Resume && StudyFolder::is_complete(&place, &identity) {
         say(out, &format!("{} holds this study, complete", place.display()))?;
         return Ok(Verdict::Done);
@@ -77,7 +68,7 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
         let text = format!(
             "part {shard} is done: {}; 'trade-harness merge {}' when all are",
             place.display(),
-            args.out.display()
+            out_dir.display()
         );
         say(out, &text)?;
         return Ok(Verdict::Done);
@@ -95,7 +86,7 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
         studies: &studies,
         results: &results,
         workers: &workers,
-        page: !args.no_report,
+        page: plan.output.report,
     };
     let missed = finish(folder, finished, &models, &plan, out)?;
     Ok(if missed && args.check {
@@ -103,6 +94,38 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
     } else {
         Verdict::Done
     })
+}
+
+/// The plan of the study file, if there is one, with what the options say.
+fn asked(args: &CompareArgs) -> Result<Plan, HarnessError> {
+    let told = args.file.as_deref().map(Plan::read).transpose()?;
+    let plan = plan_of(told.unwrap_or_default(), &args.study, &args.worlds, &args.work)?;
+    let plan = Plan {
+        isolation: args.isolation.changed(&plan.isolation),
+        case: args.case.clone().or(plan.case.clone()),
+        duration_s: args.duration.or(plan.duration_s),
+        grids: plan.grids.iter().chain(&args.grids).cloned().collect(),
+        ..plan
+    };
+    if plan.case.as_deref() == Some("nominal") && !plan.deviations().is_empty() {
+        return Err(HarnessError::NotNominal {
+            differs: plan.deviations().join(", "),
+        });
+    }
+    let output = Output {
+        report: plan.output.report && !args.no_report,
+        ..plan.output
+    };
+    Ok(Plan { output, ..plan })
+}
+
+/// Folder of the results.
+fn results(args: &CompareArgs, plan: &Plan) -> PathBuf {
+    let own = || {
+        let stem = args.file.as_deref().and_then(Path::file_stem);
+        Path::new("results").join(stem.unwrap_or("compare".as_ref()))
+    };
+    args.out.clone().or(plan.output.folder.clone()).unwrap_or_else(own)
 }
 
 fn engine<'a>(journal: &'a Journal, workers: Option<&'a Workers>) -> Engine<'a> {

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use study::{Models, Plan, Study, StudyResult, Summary, Workers, chain};
+use study::{Models, Output, Plan, Study, StudyResult, Summary, Workers, chain};
 
 use super::files::Report;
 use super::report::write_page;
@@ -12,6 +12,31 @@ use crate::claims;
 use crate::output::OutputFolder;
 use crate::report::table;
 use crate::store::StudyFolder;
+
+/// Name of the file that makes the study again.
+const STUDY_FILE: &str = "study.toml";
+
+/// The study file of what was run: all of the plan but threads and folder, which change no number.
+fn study_file(plan: &Plan, studies: &[Study]) -> Result<String, HarnessError> {
+    let mut labels = studies.iter().map(|study| {
+        let filters = study.spec.filters.iter().map(|filter| &filter.label);
+        let ours = filters.filter(|label| plan.foreign.iter().all(|foreign| foreign.label != **label));
+        ours.filter_map(|label| label.parse().ok()).collect::<Vec<_>>()
+    });
+    // Worlds with filters of their own keep them.
+    let first = labels.next();
+    let same = first.filter(|first| labels.all(|other| other == *first));
+    let plan = Plan {
+        filters: same.or(plan.filters.clone()),
+        jobs: None,
+        output: Output {
+            folder: None,
+            ..plan.output.clone()
+        },
+        ..plan.clone()
+    };
+    Ok(plan.with_whole_paths()?.to_toml()?)
+}
 
 /// Studies that are over.
 #[derive(Clone, Copy)]
@@ -34,7 +59,8 @@ pub(super) fn finish(
 ) -> Result<bool, HarnessError> {
     let report = Report::new(finished.studies, finished.results, finished.workers);
     let output = folder.output().clone();
-    let mut files = report.write(&output, models, plan, 0, Vec::new(), Some(folder.identity()))?;
+    let own = vec![(STUDY_FILE.to_owned(), study_file(plan, finished.studies)?.into_bytes())];
+    let mut files = report.write(&output, models, plan, 0, own, Some(folder.identity()))?;
     if finished.page {
         match write_page(&output) {
             Ok(name) => files.push(name),
@@ -43,14 +69,12 @@ pub(super) fn finish(
         }
     }
     folder.complete()?;
-    // What a source claims is claimed of its own world, not of a changed one.
-    let as_published = plan.assignments.is_empty() && plan.variations.is_empty() && plan.truth.is_none();
-    print(&report, as_published, &output, &files, out)
+    print(&report, plan, &output, &files, out)
 }
 
 fn print(
     report: &Report<'_>,
-    as_published: bool,
+    plan: &Plan,
     folder: &OutputFolder,
     files: &[String],
     out: &mut dyn Write,
@@ -61,7 +85,7 @@ fn print(
         let rows: Vec<Summary> = report
             .rows
             .iter()
-            .filter(|r| r.scenario == world.name)
+            .filter(|r| r.scenario == world.name && r.case == study.case)
             .cloned()
             .collect();
         let heading = format!(
@@ -83,7 +107,8 @@ fn print(
                 table::LEGEND
             ),
         )?;
-        let verdicts = if as_published {
+        // What a source claims is claimed of its own world, not of a changed one.
+        let verdicts = if plan.of_case(&study.case).as_published() {
             claims::verdicts(&world.name, &rows)
         } else {
             Vec::new()

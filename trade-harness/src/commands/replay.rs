@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use study::{Estimate, Plan, Quantity, Record, StudyError, TruthSample, World, rehearse, run_once, score};
 
-use super::shared::{Verdict, models, note, plan, say, scratch};
+use super::shared::{Verdict, changed, models, note, say, scratch};
 use crate::HarnessError;
 use crate::cli::ReplayArgs;
 use crate::format::{cell, finished};
@@ -21,7 +21,7 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut dyn Write) -> Result<Verdict, 
             Vec::new()
         },
         missions: args.mission.clone().into_iter().collect(),
-        ..plan(&args.study)?
+        ..changed(Plan::default(), &args.study)?
     };
     let folder = scratch()?;
     let world = plan

@@ -22,17 +22,17 @@ const FEW_RUNS: u32 = 30;
 pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
     let folder = OutputFolder::prepare(&args.out)?;
     let mut bench = Bench::new(args)?;
-    if args.work.runs < FEW_RUNS {
+    if args.work.runs() < FEW_RUNS {
         note(&format!(
             "note: the bounds are meant for {MEANT_RUNS} runs; with {} a bound may be missed, or held, by chance",
-            args.work.runs
+            args.work.runs()
         ));
     }
     // Everything is set up once before the first run, so that a mistake shows at once.
     for request in CHAPTERS.iter().flat_map(|chapter| (chapter.requests)()) {
         rehearse(&bench.set_up(&request)?.spec)?;
     }
-    let heading = format!("{} runs of each study from seed {}.", args.work.runs, args.seed);
+    let heading = format!("{} runs of each study from seed {}.", args.work.runs(), args.seed);
     let (mut said, mut chapter) = (0, "");
     let notebook = fill(&mut bench, |notebook| {
         for (title, line) in &notebook.lines[said..] {
@@ -111,7 +111,7 @@ impl<'a> Bench<'a> {
     fn plan(&self, request: &Request) -> Plan {
         Plan {
             seed: self.args.seed,
-            runs: self.args.work.runs.div_ceil(request.one_run_in),
+            runs: self.args.work.runs().div_ceil(request.one_run_in),
             jobs: self.args.work.jobs,
             ..request.plan.clone()
         }

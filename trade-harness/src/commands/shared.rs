@@ -3,14 +3,14 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use study::{Models, NAV, OwnFmus, Plan, Study, TRUTH, stop, stop_asked};
+use study::{Assignment, ForeignFilter, Models, NAV, OwnFmus, Plan, Study, TRUTH, Variation, stop, stop_asked};
 
 use crate::HarnessError;
 use crate::cli::{BuildArgs, StudyArgs, WorkArgs, WorldArgs};
 use crate::output::OutputFolder;
 use crate::pack::{default_folder, fmu_path};
 use crate::report::manifest::peak_memory_mib;
-use crate::tuning::sets::TunedFile;
+use crate::tuning::sets::{TunedFile, add};
 
 /// Exit code of a command that was asked to stop.
 pub(super) const INTERRUPTED: u8 = 130;
@@ -81,14 +81,19 @@ pub(super) fn end_when_asked() -> Result<(), HarnessError> {
     }
 }
 
-/// The studies of a plan.
+/// The studies of a plan: each case of its grids in each of its worlds.
 ///
 /// * `folder`: where the files of missions go that the plan changes.
 pub(super) fn cast(plan: &Plan, models: &Models, folder: &Path) -> Result<Vec<Study>, HarnessError> {
-    let worlds = plan.worlds(folder)?;
-    models.check_effects(plan, &worlds)?;
-    let studies = worlds.iter().map(|world| Ok(models.study(plan, world)?));
-    studies.collect()
+    let mut studies = Vec::new();
+    for case in plan.cases()? {
+        let worlds = case.worlds(folder)?;
+        models.check_effects(&case, &worlds)?;
+        for world in &worlds {
+            studies.push(models.study(&case, world)?);
+        }
+    }
+    Ok(studies)
 }
 
 /// A folder for files that no one keeps.
@@ -102,48 +107,82 @@ pub(super) fn scratch() -> Result<tempfile::TempDir, HarnessError> {
     })
 }
 
-/// The plan of a command line, of which worlds, runs and case are the command's own.
+/// What a command line changes of a plan; worlds, runs and case are the command's own.
+///
+/// Single values and lists of filters go before those of the plan; what is set, varied, mapped or added joins them, and
+/// replaces what the plan says of the same variable.
 ///
 /// # Errors
 /// A file of tuned sets that is none.
-pub(super) fn plan(study: &StudyArgs) -> Result<Plan, HarnessError> {
+pub(super) fn changed(plan: Plan, study: &StudyArgs) -> Result<Plan, HarnessError> {
     let chosen = study.filters.iter().filter_map(|f| f.0.clone());
-    let tuned = match &study.tuned {
-        Some(path) => TunedFile::read(path)?.sets,
-        None => Vec::new(),
+    let filters = (!study.filters.is_empty()).then(|| chosen.collect());
+    let mut tuned = plan.tuned;
+    for path in plan.tuned_files.iter().chain(&study.tuned) {
+        add(&mut tuned, &TunedFile::read(path)?.sets);
+    }
+    let set = |model: &str, variable: &str| {
+        let same = |a: &Assignment| a.model == model && a.variable == variable;
+        study.assignments.iter().any(same)
+    };
+    let varied = |model: &str, variable: &str| {
+        let same = |v: &Variation| v.model == model && v.variable == variable;
+        study.variations.iter().any(same)
+    };
+    let taken = |model: &str, variable: &str| set(model, variable) || varied(model, variable);
+    let kept = plan.assignments.into_iter().filter(|a| !taken(&a.model, &a.variable));
+    let spread = plan.variations.into_iter().filter(|v| !taken(&v.model, &v.variable));
+    let added = |own: Vec<ForeignFilter>| {
+        let kept = own
+            .into_iter()
+            .filter(|f| study.foreign.iter().all(|g| g.label != f.label));
+        kept.chain(study.foreign.iter().cloned()).collect()
     };
     Ok(Plan {
-        filters: (!study.filters.is_empty()).then(|| chosen.collect()),
-        seed: study.seed,
-        step_s: study.step,
-        scheme: study.scheme.into(),
-        assignments: study.assignments.clone(),
-        variations: study.variations.clone(),
-        truth: study.truth.clone(),
-        foreign: study.foreign.clone(),
-        allow_truth: study.allow_truth,
-        mappings: study.mappings.clone(),
+        filters: filters.or(plan.filters),
+        seed: study.seed.unwrap_or(plan.seed),
+        step_s: study.step.or(plan.step_s),
+        scheme: study.scheme.map_or(plan.scheme, Into::into),
+        assignments: kept.chain(study.assignments.iter().cloned()).collect(),
+        variations: spread.chain(study.variations.iter().cloned()).collect(),
+        truth: study.truth.clone().or(plan.truth),
+        foreign: added(plan.foreign),
+        allow_truth: plan.allow_truth || study.allow_truth,
+        mappings: plan
+            .mappings
+            .into_iter()
+            .chain(study.mappings.iter().cloned())
+            .collect(),
+        tuned_files: Vec::new(),
         tuned,
-        ..Plan::default()
+        ..plan
     })
 }
 
-/// The same with worlds and work, and a case that says what differs.
+/// The same with worlds and work.
 ///
 /// # Errors
-/// As for [`plan`].
-pub(super) fn plan_of(study: &StudyArgs, worlds: &WorldArgs, work: &WorkArgs) -> Result<Plan, HarnessError> {
-    let plan = Plan {
-        scenarios: worlds.named(),
-        missions: worlds.missions.clone(),
-        runs: work.runs,
-        jobs: work.jobs,
-        ..plan(study)?
+/// As for [`changed`].
+pub(super) fn plan_of(
+    plan: Plan,
+    study: &StudyArgs,
+    worlds: &WorldArgs,
+    work: &WorkArgs,
+) -> Result<Plan, HarnessError> {
+    let given = !worlds.scenarios.is_empty() || !worlds.missions.is_empty();
+    let (scenarios, missions) = if given {
+        (worlds.scenarios.clone(), worlds.missions.clone())
+    } else {
+        (plan.scenarios.clone(), plan.missions.clone())
     };
-    Ok(Plan {
-        case: Some(plan.case_name()),
+    let plan = Plan {
+        scenarios,
+        missions,
+        runs: work.runs.unwrap_or(plan.runs),
+        jobs: work.jobs.or(plan.jobs),
         ..plan
-    })
+    };
+    changed(plan, study)
 }
 
 /// The FMUs that a plan names; ours are built and packed first, unless that is not wanted.

@@ -36,7 +36,7 @@ pub(super) fn workers(
 ) -> Result<Workers, HarnessError> {
     let job = Job {
         // Nothing is left to a folder or to a default, so that no worker writes a mission.
-        study: Kept::new(&plan.resolved(&study.spec), models)?,
+        study: Kept::new(&plan.of_case(&study.case).resolved(&study.spec), models)?,
         limits,
     };
     let name = format!("{}_{}.job", study.spec.world.name, study.case);

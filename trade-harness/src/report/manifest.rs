@@ -104,7 +104,7 @@ impl StudyFacts {
                     parameters: parameters(f),
                 })
                 .collect(),
-            plan: plan.resolved(spec),
+            plan: plan.of_case(&study.case).resolved(spec),
             mission: spec.world.mission.clone(),
             notes: spec.world.notes.clone(),
         }

@@ -19,7 +19,7 @@ use contest::{Contest, check_ranges};
 use results::Done;
 
 pub(super) fn tune(args: &TuneArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
-    let plan = plan_of(&args.study, &args.worlds, &args.work)?;
+    let plan = plan_of(Plan::default(), &args.study, &args.worlds, &args.work)?;
     let options = options(args, &plan)?;
     let folder = OutputFolder::prepare(&args.out)?;
     let worlds = plan.worlds(folder.path())?;
@@ -69,14 +69,14 @@ pub(super) fn tune(args: &TuneArgs, out: &mut dyn Write) -> Result<Verdict, Harn
 }
 
 fn options(args: &TuneArgs, plan: &Plan) -> Result<Options, HarnessError> {
-    if args.study.seed == args.judge_seed {
+    if args.study.seed() == args.judge_seed {
         return Err(HarnessError::SameSeeds { seed: args.judge_seed });
     }
     Ok(Options {
         objective: args.objective,
         limits: Limits::new(args.nees_min, args.nees_max)?,
         evaluations: args.evaluations,
-        runs: args.work.runs,
+        runs: args.work.runs(),
         jobs: plan.threads(),
     })
 }
