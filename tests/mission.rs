@@ -153,7 +153,7 @@ fn a_key_set_on_the_command_line_reaches_both_fmus() {
     let (tunable, _) = study("tunable", &["--set", "fmu-nav.snc.q=1e-3"]);
     assert_eq!(set, tunable, "the filter reads the changed mission");
     assert_ne!(set, plain);
-    let written = std::fs::read_to_string(out.join("missions/leo_venting.toml")).unwrap();
+    let written = std::fs::read_to_string(out.join("missions/leo_venting_navigation.law.snc.q-1e-3.toml")).unwrap();
     assert!(written.contains("\"snc.q\" = 1e-3"), "{written}");
     let (noisy, _) = study("noisy", &["--set", "mission.sensors.lidar.sigma_range_m=0.8"]);
     assert_ne!(noisy, plain, "the truth reads it");
@@ -166,7 +166,7 @@ fn a_key_set_on_the_command_line_reaches_both_fmus() {
         study["plan"]["mission"][0]
             .as_str()
             .unwrap()
-            .ends_with("leo_venting.toml")
+            .ends_with("leo_venting_navigation.law.snc.q-1e-3.toml")
     );
 }
 

@@ -63,7 +63,7 @@ pub struct Grid {
     /// Number of points of a Latin hypercube over `range`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lhs: Option<u32>,
-    /// Cases one by one.
+    /// Cases one by one; the key `case` gives one a name of its own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cases: Vec<BTreeMap<String, Setting>>,
     /// Values of each setting; in a product, settings in the order of the alphabet, the last one changing fastest.
@@ -74,8 +74,36 @@ pub struct Grid {
     pub range: BTreeMap<String, Distribution>,
 }
 
-/// What one case sets.
-pub(crate) type Point = Vec<Assignment>;
+/// One case.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Point {
+    /// What it sets.
+    pub(crate) settings: Vec<Assignment>,
+    /// Its name, in parts.
+    pub(crate) name: Vec<String>,
+    /// Whether somebody gave it that name: else it says what is set.
+    pub(crate) named: bool,
+}
+
+impl Point {
+    fn of(setting: Assignment) -> Self {
+        Self {
+            name: vec![format!("{}-{}", setting.variable, setting.value)],
+            settings: vec![setting],
+            named: false,
+        }
+    }
+
+    fn with(mut self, other: Self) -> Self {
+        self.settings.extend(other.settings);
+        self.name.extend(other.name);
+        self.named |= other.named;
+        self
+    }
+}
+
+/// Key of a case that gives it a name.
+const CASE: &str = "case";
 
 impl Grid {
     /// One setting with its values, as a command line gives it.
@@ -126,11 +154,11 @@ impl Grid {
     }
 
     fn product(&self) -> Result<Vec<Point>, String> {
-        let mut points = vec![Vec::new()];
+        let mut points = vec![Point::default()];
         for (name, values) in &self.set {
             let axis: Vec<Point> = values
                 .iter()
-                .map(|value| Ok(vec![assignment(name, value)?]))
+                .map(|value| Ok(Point::of(assignment(name, value)?)))
                 .collect::<Result<_, String>>()?;
             points = combined(&points, &axis)?;
         }
@@ -152,8 +180,8 @@ impl Grid {
         }
         let count = lengths.first().copied().unwrap_or(0);
         let point = |index: usize| {
-            let own = |(name, values): (&String, &Vec<Setting>)| assignment(name, &values[index]);
-            self.set.iter().map(own).collect()
+            let mut settings = self.set.iter().map(|(name, values)| assignment(name, &values[index]));
+            settings.try_fold(Point::default(), |point, setting| Ok(point.with(Point::of(setting?))))
         };
         (0..count).map(point).collect()
     }
@@ -171,13 +199,14 @@ impl Grid {
             );
         }
         let mut generator = stream(seed.unsigned_abs().into(), place as u64, Source::Grid);
-        let mut points = vec![Vec::new(); count as usize];
+        let mut points = vec![Point::default(); count as usize];
         for (name, distribution) in &self.range {
             let mut shares: Vec<u32> = (0..count).collect();
             shares.shuffle(&mut generator);
             for (point, share) in points.iter_mut().zip(shares) {
                 let u = (f64::from(share) + generator.random::<f64>()) / f64::from(count);
-                point.push(assignment(name, &Setting::Number(rounded(distribution.quantile(u))))?);
+                let setting = assignment(name, &Setting::Number(rounded(distribution.quantile(u))))?;
+                *point = std::mem::take(point).with(Point::of(setting));
             }
         }
         Ok(points)
@@ -189,7 +218,7 @@ impl Grid {
 /// # Errors
 /// Which grid is wrong, how, and what is allowed.
 pub(crate) fn points(grids: &[Grid], seed: i32) -> Result<Vec<Point>, String> {
-    let mut all = vec![Vec::new()];
+    let mut all = vec![Point::default()];
     for (place, grid) in grids.iter().enumerate() {
         let wrong = |problem: String| format!("number {}: {problem}", place + 1);
         let own = grid.points(seed, place).map_err(wrong)?;
@@ -204,12 +233,21 @@ fn combined(these: &[Point], those: &[Point]) -> Result<Vec<Point>, String> {
     if count > MOST_CASES {
         return Err(format!("makes {count} cases; at most {MOST_CASES} are run at once"));
     }
-    let pair = |a: &Point| those.iter().map(|b| [&a[..], &b[..]].concat()).collect::<Vec<_>>();
+    let pair = |a: &Point| those.iter().map(|b| a.clone().with(b.clone())).collect::<Vec<_>>();
     Ok(these.iter().flat_map(pair).collect())
 }
 
 fn listed(case: &BTreeMap<String, Setting>) -> Result<Point, String> {
-    case.iter().map(|(name, value)| assignment(name, value)).collect()
+    let settings = case.iter().filter(|(name, _)| *name != CASE);
+    let mut point = Point::default();
+    for (name, value) in settings {
+        point = point.with(Point::of(assignment(name, value)?));
+    }
+    if let Some(name) = case.get(CASE) {
+        point.name = vec![name.to_string()];
+        point.named = true;
+    }
+    Ok(point)
 }
 
 fn assignment(name: &str, value: &Setting) -> Result<Assignment, String> {
@@ -236,7 +274,7 @@ mod tests {
     fn told(text: &str) -> Vec<String> {
         let points = points(&grids(text), 3).unwrap();
         let one = |point: &Point| {
-            let settings: Vec<String> = point.iter().map(Assignment::to_string).collect();
+            let settings: Vec<String> = point.settings.iter().map(Assignment::to_string).collect();
             settings.join(" ")
         };
         points.iter().map(one).collect()
@@ -253,6 +291,15 @@ mod tests {
         assert_eq!(told(zip), ["m.a=1 m.b=3", "m.a=2 m.b=4"]);
         let cases = "[[grid]]\ncases = [{ \"m.a\" = 1 }, { \"m.c\" = 7, \"m.b\" = 2 }]\n";
         assert_eq!(told(cases), ["m.a=1", "m.b=2 m.c=7"]);
+        let named = "[[grid]]\ncases = [{ case = \"plain\" }, { case = \"odd\", \"m.a\" = 1 }]\n";
+        let named = points(&grids(named), 3).unwrap();
+        assert_eq!(
+            named
+                .iter()
+                .map(|p| (p.name.concat(), p.settings.len()))
+                .collect::<Vec<_>>(),
+            [("plain".to_owned(), 0), ("odd".to_owned(), 1)]
+        );
         let both = format!("{zip}[[grid]]\nset = {{ \"n.k\" = [0, 1] }}\n");
         assert_eq!(
             told(&both),
@@ -268,7 +315,11 @@ mod tests {
     #[test]
     fn an_axis_is_read_from_a_command_line() {
         let grid = Grid::axis("fmu-truth.vent.scale=1,2.5,10").unwrap();
-        let told: Vec<String> = points(&[grid], 1).unwrap().iter().map(|p| p[0].to_string()).collect();
+        let told: Vec<String> = points(&[grid], 1)
+            .unwrap()
+            .iter()
+            .map(|p| p.settings[0].to_string())
+            .collect();
         let expected = ["1", "2.5", "10"].map(|value| format!("fmu-truth.vent.scale={value}"));
         assert_eq!(told, expected);
         for bad in ["fmu-truth.vent.scale", "vent=1,2", "m.a=1,,2", "m.a="] {
@@ -285,7 +336,7 @@ mod tests {
         let share = |index: usize, of: fn(f64) -> f64| {
             let mut shares: Vec<u64> = found
                 .iter()
-                .map(|point| of(point[index].value.parse().unwrap()).floor() as u64)
+                .map(|point| of(point.settings[index].value.parse().unwrap()).floor() as u64)
                 .collect();
             let order = shares.clone();
             shares.sort_unstable();

@@ -295,9 +295,9 @@ impl Plan {
         let points = points(&self.grids, self.seed).map_err(wrong)?;
         let mut cases: Vec<Self> = Vec::new();
         for point in points {
-            for (index, a) in point.iter().enumerate() {
+            for (index, a) in point.settings.iter().enumerate() {
                 let same = |model: &str, variable: &str| model == a.model && variable == a.variable;
-                let elsewhere = self.assignments.iter().chain(&point[..index]);
+                let elsewhere = self.assignments.iter().chain(&point.settings[..index]);
                 let varied = self.variations.iter().any(|v| same(&v.model, &v.variable));
                 if varied || elsewhere.into_iter().any(|b| same(&b.model, &b.variable)) {
                     let text = format!(
@@ -307,15 +307,18 @@ impl Plan {
                     return Err(wrong(text));
                 }
             }
-            let base = self.case.clone().map_or_else(|| self.deviations(), |case| vec![case]);
-            let own = point.iter().map(|a| format!("{}-{}", a.variable, a.value));
-            let name = file_name(&base.into_iter().chain(own).collect::<Vec<_>>());
+            let base = match &self.case {
+                Some(case) => vec![case.clone()],
+                None if point.named => Vec::new(),
+                None => self.deviations(),
+            };
+            let name = file_name(&[base, point.name].concat());
             if cases.iter().any(|case| case.case.as_deref() == Some(name.as_str())) {
                 return Err(wrong(format!("holds case {name} twice")));
             }
             cases.push(Self {
                 case: Some(name),
-                assignments: [&self.assignments[..], &point[..]].concat(),
+                assignments: [&self.assignments[..], &point.settings[..]].concat(),
                 grids: Vec::new(),
                 ..self.clone()
             });
@@ -646,6 +649,8 @@ mod tests {
         assert_eq!(names(grid).unwrap(), ["vent.scale-1", "vent.scale-10"]);
         let base = format!("case = \"odd\"\n{grid}");
         assert_eq!(names(&base).unwrap(), ["odd_vent.scale-1", "odd_vent.scale-10"]);
+        let named = "duration_s = 9.0\n[[grid]]\ncases = [{ case = \"a\" }, { \"fmu-truth.vent.scale\" = 2 }]\n";
+        assert_eq!(names(named).unwrap(), ["a", "duration-9_vent.scale-2"]);
         let twice = format!("set = [\"fmu-truth.vent.scale=3\"]\n{grid}");
         assert!(names(&twice).unwrap_err().contains("stands elsewhere"));
         let same = "[[grid]]\nset = { \"fmu-truth.vent.scale\" = [1, 1] }\n";

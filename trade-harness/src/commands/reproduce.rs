@@ -12,10 +12,10 @@ use crate::format::number;
 use crate::output::OutputFolder;
 use crate::report::manifest::Manifest;
 use crate::report::{summary, timing};
-use crate::reproduce::{CHAPTERS, FirstRun, Laboratory, Notebook, Request, csv, fill, line_text, markdown};
+use crate::reproduce::{CHAPTERS, FirstRun, Laboratory, MEANT_RUNS, Notebook, Request, csv, fill, line_text, markdown};
 
 /// Runs that the bounds are meant for.
-const MEANT_RUNS: u32 = 100;
+
 /// Below this, standard errors are so large that a bound says little.
 const FEW_RUNS: u32 = 30;
 

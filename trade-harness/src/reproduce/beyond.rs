@@ -1,11 +1,9 @@
 //! What Table 3 leaves out: plain filters beside the network, the same filters with less noise, and lighter spacecraft.
 
-use study::{NAV, TRUTH};
-
 use super::chapter::{Chapter, NETWORK_PAPER};
 use super::line::Line;
 use super::notebook::{Laboratory, Notebook};
-use super::request::{FORMATION, Request};
+use super::request::Request;
 use super::table::{self, BASELINES, consistency, errors, ratio};
 use crate::HarnessError;
 use crate::bound::Bound;
@@ -19,35 +17,16 @@ pub(super) const CHAPTER: Chapter = Chapter {
 /// Position and velocity: column of the summary, and what lines call it.
 const QUANTITIES: [(&str, &str); 2] = [("pos_rmse_m", "position RMSE"), ("vel_rmse_m_s", "velocity RMSE")];
 
-/// Tuning of the filters that the paper says to have tuned for the best steady state, with far less noise or gain.
-const LESS: [(&str, &str); 3] = [
-    ("ekf_j2.q_position", "7.6e-8"),
-    ("ekf_j2.q_velocity", "1.05e-12"),
-    ("observer.k_position", "0.01"),
-];
-
-/// Mass of both spacecraft, kg, at which drag and radiation pressure matter more; the paper prints none.
-const LIGHT: &str = "10";
-
 fn requests() -> Vec<Request> {
     vec![less_noise(), light()]
 }
 
 fn less_noise() -> Request {
-    let request = Request::new(FORMATION, "less_noise", &["observer", "ekf_j2"]);
-    let request = LESS
-        .iter()
-        .fold(request, |request, (variable, value)| request.set(NAV, variable, value));
-    request.one_run_in(5)
+    Request::of("beyond_less_noise")
 }
 
 fn light() -> Request {
-    let filters = ["snc", "rbfnn_aekf", "rbfnn_aekf@repaired", "rbfnn_ekf@light"];
-    let request = Request::new(FORMATION, "ten_kilograms", &filters);
-    request
-        .set(TRUTH, "target.mass", LIGHT)
-        .set(TRUTH, "chaser.mass", LIGHT)
-        .one_run_in(5)
+    Request::of("beyond_ten_kilograms")
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {

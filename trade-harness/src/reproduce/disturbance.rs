@@ -3,7 +3,7 @@
 use super::chapter::{Chapter, NETWORK_PAPER, SHARE};
 use super::line::Line;
 use super::notebook::{Laboratory, Notebook};
-use super::request::{FORMATION, Request};
+use super::request::Request;
 use super::table::{consistency, ratio};
 use crate::HarnessError;
 use crate::bound::Bound;
@@ -48,7 +48,7 @@ const TABLE_2: [Axis; 3] = [
 ];
 
 fn requests() -> Vec<Request> {
-    vec![Request::new(FORMATION, "disturbance", &[FILTER]).with_j2_alone()]
+    Request::all("network_table_2")
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {

@@ -6,12 +6,12 @@ use astro::ClohessyWiltshire;
 use astro::harmonics::EGM96;
 use nalgebra::{Vector3, Vector6};
 use stats::median;
-use study::{FilterResult, NAV, Quantity, TruthSample};
+use study::{FilterResult, Quantity, TruthSample};
 
 use super::chapter::{Chapter, NETWORK_PAPER};
 use super::line::Line;
 use super::notebook::{Laboratory, Notebook};
-use super::request::{FORMATION, Request};
+use super::request::Request;
 use crate::HarnessError;
 use crate::bound::Bound;
 
@@ -26,8 +26,6 @@ const FILTER: &str = "rbfnn_aekf@fig4";
 
 /// Semi-major axis of both orbits (Table 1), m.
 const SEMI_MAJOR_AXIS: f64 = 8143.1e3;
-/// Period of both orbits, rounded up, s.
-const ORBIT: f64 = 7313.0;
 
 /// What the figure calls its initial phase, s.
 const INITIAL: f64 = 60.0;
@@ -48,34 +46,22 @@ const USUAL: &str = "median of RMS error over true d from 350 s to the end of th
 /// Size of the perturbations, m/s2.
 const SIZE: f64 = 1e-5;
 
-/// Relaxation factors beside the preset's: the paper prints none, and it is what sets how fast the start is forgotten.
-const RELAXATIONS: [f64; 2] = [0.96, 0.97];
-
 fn requests() -> Vec<Request> {
-    let others = RELAXATIONS.map(forgetting);
-    [learning(), drift_run()].into_iter().chain(others).collect()
-}
-
-fn forgetting(relaxation: f64) -> Request {
-    let case = format!("learning_{relaxation}");
-    first_orbit(&case, FILTER)
-        .with_j2_alone()
-        .set(NAV, "rbfnn_aekf.relaxation", &relaxation.to_string())
-        .one_run_in(5)
+    let first = [learning(), drift_run()];
+    first.into_iter().chain(others()).collect()
 }
 
 fn learning() -> Request {
-    first_orbit("learning", FILTER).with_j2_alone()
+    Request::of("network_figures_4_and_5")
 }
 
-/// Flown for the true relative motion under every force; a filter has to ride along.
 fn drift_run() -> Request {
-    first_orbit("drift", "snc")
+    Request::of("network_drift")
 }
 
-/// The first orbit of the formation.
-fn first_orbit(case: &str, filter: &str) -> Request {
-    Request::new(FORMATION, case, &[filter]).lasting(ORBIT)
+/// Other relaxation factors than the preset's: the paper prints none, and it is what sets how fast the start is forgotten.
+fn others() -> Vec<Request> {
+    Request::all("network_figure_4_relaxation")
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {
@@ -103,8 +89,9 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
         &curve.iter().map(row).collect::<Vec<_>>(),
     )?;
     claims(&curve).into_iter().for_each(|line| notebook.push(line));
-    for relaxation in RELAXATIONS {
-        let result = notebook.run(laboratory, &forgetting(relaxation))?;
+    for other in &others() {
+        let relaxation = other.value("rbfnn_aekf.relaxation").unwrap_or(f64::NAN);
+        let result = notebook.run(laboratory, other)?;
         let curve: Vec<Point> = result.filters.iter().flat_map(|f| self::curve(f, &truth)).collect();
         notebook.push(
             Line::new(

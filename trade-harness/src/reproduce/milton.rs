@@ -3,7 +3,7 @@
 use super::chapter::{Chapter, MILTON_PAPER};
 use super::line::Line;
 use super::notebook::{Laboratory, Notebook};
-use super::request::{LEO_VENTING, NRHO_VENTING, Request};
+use super::request::Request;
 use crate::HarnessError;
 use crate::bound::Bound;
 use crate::claims;
@@ -17,12 +17,16 @@ pub(super) const CHAPTER: Chapter = Chapter {
     write,
 };
 
-fn request(world: &str) -> Request {
-    Request::new(world, "nominal", &[FILTER])
+fn low_orbit() -> Request {
+    Request::of("milton_figures_1_to_6")
+}
+
+fn halo_orbit() -> Request {
+    Request::of("milton_figures_7_to_13")
 }
 
 fn requests() -> Vec<Request> {
-    vec![request(LEO_VENTING), request(NRHO_VENTING)]
+    vec![low_orbit(), halo_orbit()]
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {
@@ -63,16 +67,17 @@ fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(),
             notebook.push(line);
         }
     }
+    let (low, halo) = (low_orbit(), halo_orbit());
     for column in ["ratio_vel", "ratio_acc"] {
-        let quantity = format!("{FILTER} {column}, {NRHO_VENTING} over {LEO_VENTING}");
-        let of = |world| notebook.number(&request(world), FILTER, column);
+        let quantity = format!("{FILTER} {column}, {} over {}", halo.world(), low.world());
+        let of = |world| notebook.number(world, FILTER, column);
         let line = Line::new(
             MILTON_PAPER,
             "over-estimated less near the Moon than in low Earth orbit (Figs. 9 and 10)",
             &quantity,
             "1",
         )
-        .value(Option::zip(of(NRHO_VENTING), of(LEO_VENTING)).map(|(halo, low)| halo / low))
+        .value(Option::zip(of(&halo), of(&low)).map(|(halo, low)| halo / low))
         .bound(Bound::between(0.0, 1.0));
         notebook.push(line);
     }

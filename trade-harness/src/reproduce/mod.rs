@@ -26,6 +26,7 @@ pub use chapter::Chapter;
 pub use line::{Line, Verdict};
 pub use notebook::{FirstRun, Laboratory, Notebook};
 pub use render::{csv, line_text, markdown};
+pub(crate) use request::MEANT_RUNS;
 pub use request::Request;
 
 /// Every chapter, in order; a later one may look up what an earlier one has found.

@@ -4,12 +4,10 @@
 //! sum Phi_i^2, some 1 / m, for each error, whatever else the neurons are. So the number is swept twice: at the paper's
 //! learning rate, where more neurons mean a smaller gain, and with the rate in proportion, where only the number changes.
 
-use study::NAV;
-
 use super::chapter::{Chapter, NETWORK_PAPER};
 use super::line::Line;
 use super::notebook::{Laboratory, Notebook};
-use super::request::{FORMATION, Request};
+use super::request::Request;
 use crate::HarnessError;
 
 pub(super) const CHAPTER: Chapter = Chapter {
@@ -19,15 +17,6 @@ pub(super) const CHAPTER: Chapter = Chapter {
 };
 
 const FILTER: &str = "rbfnn_aekf";
-const NEURONS: [u32; 6] = [1, 5, 15, 30, 60, 120];
-
-/// The paper's number, and the learning rate that goes with it, 1/s2.
-const PAPER_NEURONS: f64 = 60.0;
-const PAPER_LEARNING_RATE: f64 = 0.165;
-
-/// The differences sought are far larger than what fewer runs cost in standard error.
-const ONE_RUN_IN: u32 = 5;
-
 /// What is written for each number of neurons.
 const COLUMNS: [&str; 9] = [
     "neurons",
@@ -41,36 +30,19 @@ const COLUMNS: [&str; 9] = [
     "nees",
 ];
 
-/// Neurons and learning rate of each study: the paper's rate, then that which keeps the gain.
-fn sweep() -> impl Iterator<Item = (u32, f64)> {
-    let kept = |neurons: u32| PAPER_LEARNING_RATE * f64::from(neurons) / PAPER_NEURONS;
-    let at_paper_rate = NEURONS.map(|neurons| (neurons, PAPER_LEARNING_RATE));
-    at_paper_rate
-        .into_iter()
-        .chain(NEURONS.map(|neurons| (neurons, kept(neurons))))
-}
-
 fn requests() -> Vec<Request> {
-    let request = |(index, (neurons, rate)): (usize, (u32, f64))| {
-        let kind = if index < NEURONS.len() { "" } else { "_same_gain" };
-        Request::new(FORMATION, &format!("neurons_{neurons}{kind}"), &[FILTER])
-            .with_j2_alone()
-            .set(NAV, "rbfnn_aekf.neurons", &neurons.to_string())
-            .set(NAV, "rbfnn_aekf.learning_rate", &format!("{rate:?}"))
-            // The paper has no limit, and one neuron is beyond ours.
-            .set(NAV, "rbfnn_aekf.gain_limit", "1")
-            .one_run_in(ONE_RUN_IN)
-    };
-    sweep().enumerate().map(request).collect()
+    Request::all("network_neurons")
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {
     let mut rows = Vec::new();
-    for (request, (neurons, rate)) in requests().iter().zip(sweep()) {
+    for request in &requests() {
+        let set = |name| request.value(name).unwrap_or(f64::NAN);
+        let (neurons, rate) = (set("rbfnn_aekf.neurons"), set("rbfnn_aekf.learning_rate"));
         notebook.run(laboratory, request)?;
         let number = |column| notebook.number(request, FILTER, column);
         rows.push(
-            [Some(f64::from(neurons)), Some(rate)]
+            [Some(neurons), Some(rate)]
                 .into_iter()
                 .chain(COLUMNS[2..].iter().map(|column| number(column)))
                 .collect(),

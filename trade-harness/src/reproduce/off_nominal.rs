@@ -1,11 +1,9 @@
 //! Sec. IV.D: the same filters with process noise or gain off by a random factor (Table 4).
 
-use study::{Distribution, NAV, Variation};
-
 use super::chapter::{Chapter, NETWORK_PAPER, SHARE};
 use super::line::Line;
 use super::notebook::{Laboratory, Notebook};
-use super::request::{FORMATION, Request};
+use super::request::Request;
 use super::table::{self, Row, TABLE_3, ratio};
 use crate::HarnessError;
 use crate::bound::Bound;
@@ -15,9 +13,6 @@ pub(super) const CHAPTER: Chapter = Chapter {
     requests,
     write,
 };
-
-/// "Uniform, centred in the nominal value, two orders of magnitude", read as one factor for each run.
-const FACTOR: Distribution = Distribution::Uniform(0.1, 10.0);
 
 const TABLE_4: [Row; 4] = [
     Row {
@@ -53,14 +48,7 @@ const READING: &str =
     "uniform in 0.1 to 10 spans two orders of magnitude, but its mean is 5: process noise is mostly too large";
 
 fn requests() -> Vec<Request> {
-    let filters = TABLE_4.map(|row| row.filter);
-    let mut request = Request::new(FORMATION, "off_nominal", &filters);
-    request.plan.variations.push(Variation {
-        model: NAV.to_owned(),
-        variable: "off_nominal".to_owned(),
-        distribution: FACTOR,
-    });
-    vec![request]
+    Request::all("network_table_4")
 }
 
 fn write(laboratory: &mut dyn Laboratory, notebook: &mut Notebook) -> Result<(), HarnessError> {

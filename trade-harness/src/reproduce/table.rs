@@ -3,7 +3,7 @@
 use super::chapter::NETWORK_PAPER;
 use super::line::Line;
 use super::notebook::Notebook;
-use super::request::{FORMATION, Request};
+use super::request::Request;
 
 /// A row of Table 3 or 4.
 pub(super) struct Row {
@@ -52,12 +52,7 @@ pub(super) const BASELINES: [(&str, &str); 3] = [
 
 /// The study: the filters of the table, and the plain ones beside them.
 pub(super) fn request() -> Request {
-    let filters: Vec<&str> = TABLE_3
-        .iter()
-        .map(|row| row.filter)
-        .chain(BASELINES.iter().map(|(filter, _)| *filter))
-        .collect();
-    Request::new(FORMATION, "nominal", &filters)
+    Request::of("network_figures_6_and_7_and_table_3")
 }
 
 /// RMSE of position and velocity, with standard errors.
