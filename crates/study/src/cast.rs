@@ -51,20 +51,8 @@ impl Models {
         let set = plan.in_fmus().map(|a| (&a.model, &a.variable));
         let varied = plan.variations.iter().map(|v| (&v.model, &v.variable));
         for (model, variable) in set.chain(varied) {
-            let owner = variable.split_once('.').map_or("", |(owner, _)| owner);
-            let in_vain = if model == NAV && self.has_filter(owner) {
-                let chosen = |world: &World| plan.choices(world).iter().any(|choice| choice.name == owner);
-                (!worlds.iter().any(chosen)).then(|| format!("filter '{owner}' takes no part"))
-            } else if model == TRUTH && plan.truth.is_none() {
-                let sensor = Sensor::ALL.into_iter().find(|sensor| sensor.name() == owner);
-                let has = |world: &World, sensor| world.mission.sensors.of_the_target().any(|own| own.sensor == sensor);
-                sensor
-                    .filter(|sensor| !worlds.iter().any(|world| has(world, *sensor)))
-                    .map(|sensor| format!("no mission of the study has {}", sensor.table()))
-            } else {
-                None
-            };
-            if let Some(why) = in_vain {
+            let why: Option<Vec<String>> = worlds.iter().map(|w| self.in_vain(plan, w, model, variable)).collect();
+            if let Some(why) = why.and_then(|why| why.into_iter().next()) {
                 return Err(StudyError::NoEffect {
                     model: model.clone(),
                     variable: variable.clone(),
@@ -73,6 +61,38 @@ impl Models {
             }
         }
         Ok(())
+    }
+
+    /// Why a setting does nothing in a world.
+    fn in_vain(&self, plan: &Plan, world: &World, model: &str, variable: &str) -> Option<String> {
+        let owner = variable.split_once('.').map_or("", |(owner, _)| owner);
+        if model == NAV && self.has_filter(owner) {
+            let chosen = plan.choices(world).iter().any(|choice| choice.name == owner);
+            return (!chosen).then(|| format!("filter '{owner}' takes no part"));
+        }
+        if model != TRUTH || plan.truth.is_some() {
+            return None;
+        }
+        let sensor = Sensor::ALL.into_iter().find(|sensor| sensor.name() == owner)?;
+        let has = world.mission.sensors.of_the_target().any(|own| own.sensor == sensor);
+        (!has).then(|| format!("the mission has no {}", sensor.table()))
+    }
+
+    /// What a reader should know of a plan in this world: settings that do nothing here, tuned sets from other conditions.
+    fn notes(&self, plan: &Plan, world: &World) -> Vec<String> {
+        let set = plan.in_fmus().map(|a| (&a.model, &a.variable));
+        let varied = plan.variations.iter().map(|v| (&v.model, &v.variable));
+        let in_vain = set.chain(varied).filter_map(|(model, variable)| {
+            let why = self.in_vain(plan, world, model, variable)?;
+            Some(format!("{model}.{variable} does nothing here: {why}"))
+        });
+        let here = plan.deviations();
+        let labels = plan.choices(world).iter().map(|choice| (&choice.name, &choice.preset));
+        let elsewhere = labels.filter_map(|(name, preset)| {
+            let used = |t: &&TunedSet| t.scenario == world.name && t.filter == *name && t.name == *preset;
+            plan.tuned.iter().find(used)?.elsewhere(&here)
+        });
+        in_vain.chain(elsewhere).collect()
     }
 
     /// Whether fmu-nav has a filter of this name.
@@ -113,6 +133,7 @@ impl Models {
             .unwrap_or(world.sample_period_s);
         let world = World {
             duration_s: plan.duration_s.unwrap_or(world.duration_s),
+            notes: [world.notes.clone(), self.notes(plan, world)].concat(),
             ..world.clone()
         };
         Ok(Spec {

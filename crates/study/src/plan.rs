@@ -565,6 +565,7 @@ mod tests {
                 preset: PAPER.to_owned(),
                 name: "tuned".to_owned(),
                 values: [("snc.q".to_owned(), 0.1 + 0.2)].into(),
+                conditions: vec!["vent.scale-10".to_owned()],
                 search_objective: Some(0.3),
                 search_nees: None,
                 feasible: true,

@@ -234,6 +234,7 @@ fn tuned_sets_set_parameters_only() {
             preset: "paper".to_owned(),
             name: "tuned".to_owned(),
             values: BTreeMap::from([(variable.to_owned(), value)]),
+            conditions: Vec::new(),
             search_objective: None,
             search_nees: None,
             feasible: true,
@@ -337,6 +338,58 @@ fn a_plan_becomes_a_study() {
         .unwrap();
     assert_eq!(again.resolved(&repeated), resolved);
     assert_eq!(format!("{repeated:?}"), format!("{spec:?}"));
+}
+
+/// What is set in vain everywhere is refused, in one world of several a note; so is a tuned set under other conditions.
+#[test]
+fn nothing_is_set_in_silence_for_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = OwnFmus {
+        truth: Some(write_fmu(folder.path(), "truth", TRUTH)),
+        nav: Some(write_fmu(folder.path(), "nav", NAV)),
+    };
+    let set = TunedSet {
+        file: None,
+        scenario: "leo_venting".to_owned(),
+        filter: "milton".to_owned(),
+        preset: "paper".to_owned(),
+        name: "tuned".to_owned(),
+        values: BTreeMap::new(),
+        conditions: vec!["sample_period-2".to_owned()],
+        search_objective: None,
+        search_nees: None,
+        feasible: true,
+    };
+    let plan = |sample_period: &str, vary: &[&str]| Plan {
+        filters: Some(vec!["milton@tuned".parse().unwrap()]),
+        assignments: vec![format!("fmu-truth.sample_period={sample_period}").parse().unwrap()],
+        variations: vary.iter().map(|v| v.parse().unwrap()).collect(),
+        tuned: vec![set.clone()],
+        ..Plan::default()
+    };
+    let models = Models::of(&plan("1", &[]), &own).unwrap();
+    let notes = |plan: &Plan| {
+        let worlds = plan.worlds(folder.path()).unwrap();
+        let notes = models.spec(plan, &worlds[0]).unwrap().world.notes;
+        let own = notes
+            .into_iter()
+            .filter(|n| !worlds[0].notes.contains(n))
+            .collect::<Vec<_>>();
+        (own, models.check_effects(plan, &worlds))
+    };
+    let (told, checked) = notes(&plan("2", &[]));
+    assert!(told.is_empty() && checked.is_ok(), "{told:?}");
+    let (told, _) = notes(&plan("1", &[]));
+    assert_eq!(
+        told,
+        ["milton@tuned was found in sample_period-2, not in sample_period-1"]
+    );
+    let (told, checked) = notes(&plan("2", &["fmu-nav.fixed_q.s=uniform:1:2"]));
+    assert!(
+        told[0].contains("fmu-nav.fixed_q.s does nothing here: filter 'fixed_q' takes no part"),
+        "{told:?}"
+    );
+    assert!(matches!(checked, Err(StudyError::NoEffect { .. })));
 }
 
 /// The status is an enumeration in other words and another order, or a plain Integer.

@@ -108,6 +108,9 @@ fn print(
             ),
         )?;
         // What a source claims is claimed of its own world, not of a changed one.
+        for note in &world.notes {
+            say(out, &format!("note: {note}"))?;
+        }
         let verdicts = if plan.of_case(&study.case).as_published() {
             claims::verdicts(&world.name, &rows)
         } else {

@@ -14,8 +14,6 @@ use crate::report::manifest::Manifest;
 use crate::report::{summary, timing};
 use crate::reproduce::{CHAPTERS, FirstRun, Laboratory, MEANT_RUNS, Notebook, Request, csv, fill, line_text, markdown};
 
-/// Runs that the bounds are meant for.
-
 /// Below this, standard errors are so large that a bound says little.
 const FEW_RUNS: u32 = 30;
 

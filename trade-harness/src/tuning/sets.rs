@@ -97,6 +97,7 @@ mod tests {
                 preset: "p".to_owned(),
                 name: TunedSet::name_for("p"),
                 values: values.map(|(k, v)| (k.to_owned(), v)).into(),
+                conditions: vec!["vent.scale-2".to_owned()],
                 search_objective: Some(0.1),
                 search_nees: None,
                 feasible: true,

@@ -114,7 +114,8 @@ impl Contest {
     /// The winners, in the order of the contenders; none for a filter with nothing to tune.
     ///
     /// * `known`: sets from which this search may have started.
-    pub(super) fn sets(&self, known: &[TunedSet]) -> Vec<TunedSet> {
+    /// * `conditions`: what differs from the missions as they stand.
+    pub(super) fn sets(&self, known: &[TunedSet], conditions: &[String]) -> Vec<TunedSet> {
         let set = |searched: &Searched| {
             let best = searched.best()?;
             let found = searched.settings(best).map(|(name, value)| (name.to_owned(), value));
@@ -130,6 +131,7 @@ impl Contest {
                 preset: before.map_or(preset, |t| &t.preset).clone(),
                 name: TunedSet::name_for(preset),
                 values,
+                conditions: conditions.to_vec(),
                 search_objective: Some(best.standing.objective).filter(|o| o.is_finite()),
                 search_nees: best.tally.nees(),
                 feasible: best.standing.feasible(),

@@ -33,6 +33,7 @@ pub(super) fn tune(args: &TuneArgs, out: &mut dyn Write) -> Result<Verdict, Harn
     // Over the whole command, so that the time left covers the judging, too.
     let work = contests.iter().map(|c| c.work(args.judge_runs)).sum();
     let progress = Progress::new(work, "filter runs", args.study.build.quiet);
+    let conditions = plan.deviations();
     let mut judge = Plan {
         seed: args.judge_seed,
         runs: args.judge_runs,
@@ -45,7 +46,7 @@ pub(super) fn tune(args: &TuneArgs, out: &mut dyn Write) -> Result<Verdict, Harn
         while contest.tuning.round(|n| progress.advance(n)) {
             folder.write("search.csv", &done.search_csv(Some(&contest), &options)?)?;
         }
-        let sets = contest.sets(&judge.tuned);
+        let sets = contest.sets(&judge.tuned, &conditions);
         done.file.sets.extend(sets.iter().cloned());
         folder.write("tuned.json", &done.file.render()?)?;
         add(&mut judge.tuned, &sets);
