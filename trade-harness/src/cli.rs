@@ -13,6 +13,9 @@ use crate::tuning::standing::Objective;
 #[derive(Debug, Parser)]
 #[command(name = "trade-harness", version, about, arg_required_else_help = true)]
 pub struct Cli {
+    /// One JSON document on standard output instead of text; an error is one, too
+    #[arg(long, global = true)]
+    pub json: bool,
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
@@ -21,7 +24,7 @@ pub struct Cli {
 /// What the harness can do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// List scenarios, filters, presets and tunables
+    /// List missions, filters, presets, parameters, ports, distributions and metrics
     List(ListArgs),
     /// Build our FMUs and pack them as .fmu files
     Pack(PackArgs),
@@ -44,6 +47,12 @@ pub enum Command {
     Mission(MissionCommand),
     /// Tell what every column of the CSV files means
     Columns,
+    /// Print a script that completes commands and options in a shell
+    #[command(after_help = "Example, for this shell alone:\n  source <(trade-harness completions bash)")]
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
     /// Make runs for a study of another process
     #[command(hide = true)]
     Worker(WorkerArgs),
@@ -98,8 +107,8 @@ impl WorkArgs {
 /// Which filters, which parameters.
 #[derive(Debug, Clone, Args)]
 pub struct StudyArgs {
-    /// Filters of fmu-nav, each with a preset if it is not 'paper'; empty for none [default: those of the scenario, see
-    /// list]
+    /// Filters of fmu-nav, each with a preset if it is not 'paper'; 'all' for every one with a meaning in the world, empty
+    /// for none [default: those of the mission, see list missions]
     #[arg(long, value_name = "NAME[@PRESET],...", value_delimiter = ',', value_parser = optional_choice)]
     pub filters: Vec<OptionalChoice>,
     /// Seed of the study; with the number of a run it selects every random stream [default: 1]
@@ -178,10 +187,48 @@ impl From<SchemeChoice> for cosim::Scheme {
 
 /// `list`.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  trade-harness list filters milton\n  trade-harness list parameters fmu-truth lidar\n  trade-harness list --json presets"
+)]
 pub struct ListArgs {
-    /// Where our FMUs come from.
-    #[command(flatten)]
-    pub build: BuildArgs,
+    /// What to list [default: an overview]
+    #[arg(value_enum)]
+    pub what: Option<Listed>,
+    /// One of them: a mission, a filter, an FMU, a file
+    pub name: Option<String>,
+    /// Of an FMU's parameters: those of one filter or of one part of the world, as in 'parameters fmu-truth lidar'
+    pub of: Option<String>,
+}
+
+impl ListArgs {
+    /// All of one kind.
+    pub fn of(what: Listed) -> Self {
+        Self {
+            what: Some(what),
+            name: None,
+            of: None,
+        }
+    }
+}
+
+/// What can be listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Listed {
+    /// Missions that come with the project
+    Missions,
+    /// Filters of fmu-nav with presets, parameters and search ranges
+    Filters,
+    /// Every parameter set
+    Presets,
+    /// What --set and --vary change
+    Parameters,
+    /// Variables that connect truth and filters
+    Ports,
+    /// What --vary draws from
+    Distributions,
+    /// Columns of the CSV files
+    #[value(alias = "columns")]
+    Metrics,
 }
 
 /// `mission`.
@@ -285,6 +332,9 @@ pub struct CompareArgs {
     /// Do not write report.html
     #[arg(long)]
     pub no_report: bool,
+    /// All columns of the table, and one by axis; the plain one fits 80 columns
+    #[arg(long)]
+    pub wide: bool,
     /// Which filters, which parameters.
     #[command(flatten)]
     pub study: StudyArgs,
@@ -357,6 +407,9 @@ pub struct MergeArgs {
     /// Folder in which the parts of a study were done
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
+    /// All columns of the table, and one by axis; the plain one fits 80 columns
+    #[arg(long)]
+    pub wide: bool,
     /// Threads [default: all cores]
     #[arg(long)]
     pub jobs: Option<std::num::NonZeroUsize>,

@@ -33,6 +33,18 @@ pub enum HarnessError {
         "no sensor ever sees the target: attitude, field_of_view_deg, max_range_m and period_s decide what is seen"
     )]
     SeesNothing,
+    /// A name that is none of those to choose from.
+    #[error("there is no {kind} '{name}'{}; there are: {known}", did_you_mean(meant.as_deref()))]
+    NoSuchThing {
+        /// What was asked for.
+        kind: &'static str,
+        /// Its name.
+        name: String,
+        /// The nearest name.
+        meant: Option<String>,
+        /// All names.
+        known: String,
+    },
     /// A file that is not overwritten.
     #[error("{} exists already; name another, or move it away", path.display())]
     Exists {
@@ -267,4 +279,10 @@ impl From<StatsError> for HarnessError {
     fn from(error: StatsError) -> Self {
         StudyError::from(error).into()
     }
+}
+
+fn did_you_mean(meant: Option<&str>) -> String {
+    meant
+        .map(|meant| format!(", did you mean '{meant}'?"))
+        .unwrap_or_default()
 }

@@ -9,7 +9,7 @@ use crate::arguments::{Assignment, FilterChoice};
 use crate::error::StudyError;
 use crate::models::{Models, NAV, OwnFmus, TRUTH};
 use crate::participant::Participant;
-use crate::plan::Plan;
+use crate::plan::{ALL, Plan};
 use crate::spec::Spec;
 use crate::starts::{StartValues, check_real_range};
 use crate::study::Study;
@@ -67,7 +67,7 @@ impl Models {
     fn in_vain(&self, plan: &Plan, world: &World, model: &str, variable: &str) -> Option<String> {
         let owner = variable.split_once('.').map_or("", |(owner, _)| owner);
         if model == NAV && self.has_filter(owner) {
-            let chosen = plan.choices(world).iter().any(|choice| choice.name == owner);
+            let chosen = self.choices(plan, world).iter().any(|choice| choice.name == owner);
             return (!chosen).then(|| format!("filter '{owner}' takes no part"));
         }
         if model != TRUTH || plan.truth.is_some() {
@@ -87,12 +87,42 @@ impl Models {
             Some(format!("{model}.{variable} does nothing here: {why}"))
         });
         let here = plan.deviations();
-        let labels = plan.choices(world).iter().map(|choice| (&choice.name, &choice.preset));
-        let elsewhere = labels.filter_map(|(name, preset)| {
-            let used = |t: &&TunedSet| t.scenario == world.name && t.filter == *name && t.name == *preset;
+        let choices = self.choices(plan, world);
+        let elsewhere = choices.iter().filter_map(|choice| {
+            let used = |t: &&TunedSet| t.scenario == world.name && t.filter == choice.name && t.name == choice.preset;
             plan.tuned.iter().find(used)?.elsewhere(&here)
         });
         in_vain.chain(elsewhere).collect()
+    }
+
+    /// Filters that are chosen by name in a world, where [`ALL`] stands for every one with a meaning there that is not named.
+    fn choices(&self, plan: &Plan, world: &World) -> Vec<FilterChoice> {
+        let asked = plan.choices(world);
+        let Some(nav) = self
+            .nav
+            .as_ref()
+            .filter(|_| asked.iter().any(|choice| choice.label == ALL))
+        else {
+            return asked.to_vec();
+        };
+        let named = |name: &str| asked.iter().any(|choice| choice.label == name);
+        let mut chosen = Vec::new();
+        for choice in asked {
+            if choice.label != ALL {
+                chosen.push(choice.clone());
+                continue;
+            }
+            let items = nav.description().items("filter").iter().map(|item| item.name.as_str());
+            let meant = items.filter(|name| {
+                !named(name)
+                    && nav
+                        .filters
+                        .without_meaning(name, &world.name, world.frame.name())
+                        .is_none()
+            });
+            chosen.extend(meant.filter_map(|name| name.parse().ok()));
+        }
+        chosen
     }
 
     /// Whether fmu-nav has a filter of this name.
@@ -120,7 +150,7 @@ impl Models {
     /// # Errors
     /// What cannot be set or varied or does not exist, with the names that do.
     pub fn spec(&self, plan: &Plan, world: &World) -> Result<Spec, StudyError> {
-        let choices = plan.choices(world);
+        let choices = &self.choices(plan, world);
         let assignments: Vec<Assignment> = plan.in_fmus().cloned().collect();
         let (mut truth, mut filters) = self.cast(world, choices, &plan.tuned, &assignments)?;
         self.vary(&mut truth, &mut filters, &plan.variations, &assignments)?;

@@ -67,7 +67,7 @@ pub use study::{Engine, Study, StudyResult};
 pub use summary::{QuantitySummary, ScalarSummary, Summary};
 pub use tally::{Tally, evaluate};
 pub use tuned::TunedSet;
-pub use variation::{Distribution, Variation, Varied};
+pub use variation::{DISTRIBUTIONS, Distribution, Variation, Varied};
 pub use worker::{Limits, serve};
 pub use workers::Workers;
 pub use world::{Axes, Frame, Innovation, Signals, World};

@@ -30,9 +30,28 @@ pub enum Distribution {
 /// beyond, and a parameter that refuses it fails that run by name.
 const CHECKED_SIGMAS: f64 = 4.0;
 
-/// The forms of a distribution, for messages.
-const FORMS: &str =
-    "uniform:LOW:HIGH, loguniform:LOW:HIGH, normal:MEAN:SIGMA, lognormal:MEDIAN:FACTOR, choice:VALUE:VALUE:...";
+/// The forms of a distribution, and what each draws.
+pub const DISTRIBUTIONS: [[&str; 2]; 5] = [
+    [
+        "uniform:LOW:HIGH",
+        "every value between the ends is as likely as any other",
+    ],
+    [
+        "loguniform:LOW:HIGH",
+        "every factor between the ends is as likely as any other",
+    ],
+    ["normal:MEAN:SIGMA", "Gaussian"],
+    [
+        "lognormal:MEDIAN:FACTOR",
+        "the logarithm is Gaussian; FACTOR is one sigma away from the median",
+    ],
+    ["choice:VALUE:VALUE:...", "each of the values is as likely as any other"],
+];
+
+/// The forms, for messages.
+fn forms() -> String {
+    DISTRIBUTIONS.map(|[form, _]| form).join(", ")
+}
 
 impl Distribution {
     /// The value below which a share `u` of all values lies, 0 <= u < 1.
@@ -89,7 +108,7 @@ impl FromStr for Distribution {
     fn from_str(text: &str) -> Result<Self, String> {
         let (name, rest) = text.split_once(':').unwrap_or((text, ""));
         if !["uniform", "loguniform", "normal", "lognormal", "choice"].contains(&name) {
-            return Err(format!("there is no distribution '{name}'; there are: {FORMS}"));
+            return Err(format!("there is no distribution '{name}'; there are: {}", forms()));
         }
         let number = |text: &str| {
             let value = text.parse::<f64>().ok().filter(|v| v.is_finite());
@@ -109,7 +128,7 @@ impl FromStr for Distribution {
             };
         }
         let [first, second] = parts[..] else {
-            return Err(format!("'{text}' has not two numbers; there are: {FORMS}"));
+            return Err(format!("'{text}' has not two numbers; there are: {}", forms()));
         };
         let (first, second) = (number(first)?, number(second)?);
         match name {

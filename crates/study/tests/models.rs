@@ -340,6 +340,32 @@ fn a_plan_becomes_a_study() {
     assert_eq!(format!("{repeated:?}"), format!("{spec:?}"));
 }
 
+/// `all` stands for every filter that has a meaning in the world and is not named beside it.
+#[test]
+fn all_filters_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = OwnFmus {
+        truth: Some(write_fmu(folder.path(), "truth", TRUTH)),
+        nav: Some(write_fmu(folder.path(), "nav", NAV)),
+    };
+    let labels = |filters: &[&str]| {
+        let plan = Plan {
+            filters: Some(filters.iter().map(|f| f.parse().unwrap()).collect()),
+            ..Plan::default()
+        };
+        let models = Models::of(&plan, &own).unwrap();
+        let spec = models.spec(&plan, &worlds::find("leo_venting").unwrap()).unwrap();
+        spec.filters.into_iter().map(|f| f.label).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        labels(&["all"]),
+        ["fixed_q", "milton"],
+        "the observer means nothing here"
+    );
+    assert_eq!(labels(&["all", "milton@short"]), ["fixed_q", "milton", "milton@short"]);
+    assert_eq!(labels(&["milton", "all"]), ["milton", "fixed_q"]);
+}
+
 /// What is set in vain everywhere is refused, in one world of several a note; so is a tuned set under other conditions.
 #[test]
 fn nothing_is_set_in_silence_for_nothing() {

@@ -1,21 +1,21 @@
 //! `compare`: the Monte Carlo study.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use study::{Engine, Journal, Output, Plan, Workers, rehearse};
 
 use super::finished::{Finished, finish};
 use super::kept::{KEPT, Kept, shard_folder};
+use super::out::Out;
 use super::progress::{run_watched, shard_watched};
-use super::shared::{Verdict, cast, end_when_asked, models, note, plan_of, say, scratch};
+use super::shared::{Verdict, cast, end_when_asked, models, note, plan_of, scratch};
 use super::worker;
 use crate::HarnessError;
 use crate::cli::CompareArgs;
 use crate::format::json_bytes;
 use crate::store::{Claim, StudyFolder, identity};
 
-pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+pub(super) fn compare(args: &CompareArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     end_when_asked()?;
     let plan = asked(args)?;
     let models = models(&plan, &args.study.build)?;
@@ -53,7 +53,7 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
         .shard
         .map_or_else(|| out_dir.clone(), |shard| shard_folder(&out_dir, shard));
     if claim == Claim::Resume && StudyFolder::is_complete(&place, &identity) {
-        say(out, &format!("{} holds this study, complete", place.display()))?;
+        out.say(&format!("{} holds this study, complete", place.display()))?;
         return Ok(Verdict::Done);
     }
     let folder = StudyFolder::claim(&place, &identity, claim)?;
@@ -70,7 +70,7 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
             place.display(),
             out_dir.display()
         );
-        say(out, &text)?;
+        out.say(&text)?;
         return Ok(Verdict::Done);
     }
 
@@ -87,6 +87,7 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
         results: &results,
         workers: &workers,
         page: plan.output.report,
+        wide: args.wide,
     };
     let missed = finish(folder, finished, &models, &plan, out)?;
     Ok(if missed && args.check {

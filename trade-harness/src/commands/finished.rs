@@ -1,15 +1,16 @@
 //! What becomes of finished studies: files and tables.
 
-use std::io::Write;
-
+use serde_json::{Value, json};
 use study::{Models, Output, Plan, Study, StudyResult, Summary, Workers, chain};
 
 use super::files::Report;
+use super::out::Out;
 use super::report::write_page;
-use super::shared::{closing, note, say};
+use super::shared::{closing, note};
 use crate::HarnessError;
 use crate::claims;
 use crate::output::OutputFolder;
+use crate::report::summary::COLUMNS;
 use crate::report::table;
 use crate::store::StudyFolder;
 
@@ -47,6 +48,8 @@ pub(super) struct Finished<'a> {
     pub(super) workers: &'a [Workers],
     /// Whether the folder gets its HTML page.
     pub(super) page: bool,
+    /// Whether every column is printed.
+    pub(super) wide: bool,
 }
 
 /// Writes and prints what finished studies found; returns whether a bound was missed.
@@ -55,7 +58,7 @@ pub(super) fn finish(
     finished: Finished<'_>,
     models: &Models,
     plan: &Plan,
-    out: &mut dyn Write,
+    out: &mut Out<'_>,
 ) -> Result<bool, HarnessError> {
     let report = Report::new(finished.studies, finished.results, finished.workers);
     let output = folder.output().clone();
@@ -69,17 +72,19 @@ pub(super) fn finish(
         }
     }
     folder.complete()?;
-    print(&report, plan, &output, &files, out)
+    print(&report, plan, finished.wide, &output, &files, out)
 }
 
 fn print(
     report: &Report<'_>,
     plan: &Plan,
+    wide: bool,
     folder: &OutputFolder,
     files: &[String],
-    out: &mut dyn Write,
+    out: &mut Out<'_>,
 ) -> Result<bool, HarnessError> {
     let mut missed = false;
+    let mut told = Vec::new();
     for (study, result) in report.studies.iter().zip(report.results) {
         let world = &study.spec.world;
         let rows: Vec<Summary> = report
@@ -89,7 +94,7 @@ fn print(
             .cloned()
             .collect();
         let heading = format!(
-            "{}, case {}: {} runs from seed {}, {} to {} s, {:.1} s on {} threads",
+            "{}, case {}\n{} runs from seed {}, scored {} to {} s; {:.1} s on {} threads",
             world.name,
             study.case,
             study.runs,
@@ -99,30 +104,51 @@ fn print(
             result.wall.as_secs_f64(),
             study.jobs
         );
-        say(
-            out,
-            &format!(
-                "{heading}\n{}\n{}",
-                table::render(&rows, &report.timings),
-                table::LEGEND
-            ),
-        )?;
+        out.say(&heading)?;
+        if wide {
+            out.say(&format!(
+                "{}\n{}",
+                table::render_wide(&rows, &report.timings),
+                table::WIDE_LEGEND
+            ))?;
+        } else {
+            out.say(&format!("{}\n{}", table::render(&rows), table::LEGEND))?;
+        }
         // What a source claims is claimed of its own world, not of a changed one.
         for note in &world.notes {
-            say(out, &format!("note: {note}"))?;
+            out.say(&format!("note: {note}"))?;
         }
         let verdicts = if plan.of_case(&study.case).as_published() {
             claims::verdicts(&world.name, &rows)
         } else {
             Vec::new()
         };
-        say(out, &format!("\n{}", table::render_axes(&rows, world.axes.names())))?;
-        if !verdicts.is_empty() {
-            say(out, &format!("\n{}\n{}", world.reference, claims::render(&verdicts)))?;
+        if wide {
+            out.say(&format!("\n{}", table::render_axes(&rows, world.axes.names())))?;
         }
+        if !verdicts.is_empty() {
+            out.say(&format!("\n{}\n{}", world.reference, claims::render(&verdicts)))?;
+        }
+        told.push(json!({
+            "scenario": world.name, "case": study.case, "runs": study.runs, "seed": study.spec.seed,
+            "notes": world.notes, "filters": rows.iter().map(fields).collect::<Vec<_>>(),
+            "claims": verdicts.iter().map(|v| json!({
+                "filter": v.claim.filter, "column": v.claim.column, "value": v.value, "holds": v.holds(), "text": v.claim.text,
+            })).collect::<Vec<_>>(),
+        }));
         missed |= verdicts.iter().any(|v| !v.holds());
-        say(out, "")?;
+        out.say("")?;
     }
+    out.tell("studies", told)?;
     closing(folder, files, out)?;
     Ok(missed)
+}
+
+/// A row of `summary.csv` by the names of its columns.
+fn fields(row: &Summary) -> serde_json::Map<String, Value> {
+    let cells = COLUMNS.iter().map(|column| {
+        let value = serde_json::to_value(column.cell(row)).unwrap_or_default();
+        (column.name.to_owned(), value)
+    });
+    cells.collect()
 }

@@ -1,16 +1,16 @@
 //! `inspect`: what an FMU is.
 
-use std::io::Write;
-
 use fmi2_import::{Causality, Fmu};
+use serde_json::json;
 use study::filters_of;
 
-use super::list::variables;
-use super::shared::{Verdict, say};
+use super::list::{variable_json, variables};
+use super::out::Out;
+use super::shared::Verdict;
 use crate::HarnessError;
 use crate::cli::InspectArgs;
 
-pub(super) fn inspect(args: &InspectArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+pub(super) fn inspect(args: &InspectArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     let fmu = Fmu::open(&args.path)?;
     let d = fmu.description();
     let filters = filters_of(d)?;
@@ -40,34 +40,38 @@ pub(super) fn inspect(args: &InspectArgs, out: &mut dyn Write) -> Result<Verdict
         ("serializes its state", c.can_serialize_fmu_state.to_string()),
         ("variables", d.variables.len().to_string()),
     ] {
-        say(out, &format!("{what:30} {value}"))?;
+        out.say(&format!("{what:30} {value}"))?;
     }
+    out.tell("model", &d.model_name)?;
+    out.tell("description", &d.description)?;
+    out.tell("version", &d.version)?;
+    out.tell("guid", &d.guid)?;
+    out.tell("identifier", &c.model_identifier)?;
+    out.tell("platforms", fmu.platforms())?;
+    out.tell(
+        "default_experiment",
+        json!({"start": e.start_time, "stop": e.stop_time, "step": e.step_size}),
+    )?;
     for preset in &filters.presets {
         let sets: Vec<String> = preset
             .sets
             .iter()
             .map(|s| format!("{}={}", s.variable, s.value))
             .collect();
-        say(
-            out,
-            &format!(
-                "{:30} {}@{}: {} ({})",
-                "preset",
-                preset.filter,
-                preset.name,
-                preset.about,
-                sets.join(" ")
-            ),
-        )?;
+        out.say(&format!(
+            "{:30} {}@{}: {} ({})",
+            "preset",
+            preset.filter,
+            preset.name,
+            preset.about,
+            sets.join(" ")
+        ))?;
     }
     for s in &filters.searches {
-        say(
-            out,
-            &format!(
-                "{:30} {} from {:?} to {:?}",
-                "search of tune", s.variable, s.low, s.high
-            ),
-        )?;
+        out.say(&format!(
+            "{:30} {} from {:?} to {:?}",
+            "search of tune", s.variable, s.low, s.high
+        ))?;
     }
     for (title, causality) in [
         ("Parameters", Causality::Parameter),
@@ -78,8 +82,12 @@ pub(super) fn inspect(args: &InspectArgs, out: &mut dyn Write) -> Result<Verdict
     ] {
         let of_kind = || d.variables.iter().filter(|v| v.causality == causality);
         if of_kind().next().is_some() {
-            say(out, &format!("\n{title}\n{}", variables(of_kind())))?;
+            out.say(&format!("\n{title}\n{}", variables(of_kind())))?;
         }
+        out.tell(
+            &title.to_lowercase().replace(' ', "_"),
+            of_kind().map(variable_json).collect::<Vec<_>>(),
+        )?;
     }
     Ok(Verdict::Done)
 }

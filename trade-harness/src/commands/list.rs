@@ -1,72 +1,255 @@
-//! `list`: what can be studied and tuned.
+//! `list`: what can be studied, set, read and tuned; from tables that are part of the program, without building anything.
 
-use std::io::Write;
+use std::path::Path;
 
 use comfy_table::{ContentArrangement, Table, presets};
-use fmi2_import::{Causality, EnumerationItem, ModelDescription, Variable};
+use fmi2_import::{Causality, EnumerationItem, ModelDescription, Variable, suggest};
 use interface::annotation::Filters;
-use study::{FilterChoice, NAV, PAPER, TRUTH, filters_of, worlds};
+use interface::ports::{PORTS, Shape};
+use serde_json::{Value, json};
+use study::{DISTRIBUTIONS, FilterChoice, NAV, PAPER, TRUTH, filters_of, worlds};
 
-use super::shared::{Verdict, own_fmus, say};
+use super::out::Out;
+use super::shared::Verdict;
 use crate::HarnessError;
 use crate::claims::{self, Claim};
-use crate::cli::ListArgs;
+use crate::cli::{ListArgs, Listed};
 use crate::format::lines;
+use crate::report::columns;
 
-pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
-    let paths = own_fmus(&args.build, &[TRUTH, NAV])?;
-    let fmus = paths
-        .iter()
-        .map(fmi2_import::Fmu::open)
-        .collect::<Result<Vec<_>, _>>()?;
-    say(out, &scenarios()?)?;
-    if let [truth, nav] = fmus.as_slice() {
-        let filters = nav.description().items("filter");
-        let told = filters_of(nav.description())?;
-        for filter in filters {
-            say(out, &describe_filter(nav.description(), &told, filter))?;
+/// What the FMUs of this project say of themselves. Their own test holds the files to what they render.
+const TRUTH_XML: &str = include_str!("../../../modelDescription/fmu-truth/modelDescription.xml");
+const NAV_XML: &str = include_str!("../../../modelDescription/fmu-nav/modelDescription.xml");
+
+pub(super) fn list(args: &ListArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
+    let nav = ModelDescription::parse(NAV_XML.as_bytes(), Path::new(NAV))?;
+    let name = args.name.as_deref();
+    match args.what {
+        None => overview(&nav, out)?,
+        Some(Listed::Missions) => missions(name, out)?,
+        Some(Listed::Filters) => filters(&nav, name, out)?,
+        Some(Listed::Presets) => sets(&nav, name, out)?,
+        Some(Listed::Parameters) => {
+            let truth = ModelDescription::parse(TRUTH_XML.as_bytes(), Path::new(TRUTH))?;
+            parameters_of(&truth, &nav, name, args.of.as_deref(), out)?;
         }
-        let of_a_filter = |v: &Variable| filters.iter().any(|f| prefix(&v.name) == f.name);
-        let shared = parameters(nav.description()).filter(|v| !of_a_filter(v));
-        say(
-            out,
-            &format!(
-                "Parameters of every filter (--set {NAV}.NAME=VALUE)\n{}\n",
-                variables(shared)
-            ),
-        )?;
-        let world = parameters(truth.description());
-        say(
-            out,
-            &format!(
-                "Parameters of the world (--set {TRUTH}.NAME=VALUE)\n{}",
-                variables(world)
-            ),
-        )?;
+        Some(Listed::Ports) => ports(out)?,
+        Some(Listed::Distributions) => distributions(out)?,
+        Some(Listed::Metrics) => metrics(name, out)?,
     }
     Ok(Verdict::Done)
 }
 
-fn scenarios() -> Result<String, HarnessError> {
-    let mut text = "Scenarios\n".to_owned();
-    for s in worlds::all()? {
-        text.push_str(&format!("  {}: {}\n", s.name, s.about));
-        text.push_str(&format!(
-            "    {} s, scored from {} s; {}\n",
-            s.duration_s, s.scored_from_s, s.reference
-        ));
+/// The one of these names that is meant.
+fn known<'a>(
+    kind: &'static str,
+    name: &str,
+    names: impl Iterator<Item = &'a str> + Clone,
+) -> Result<&'a str, HarnessError> {
+    names
+        .clone()
+        .find(|own| *own == name)
+        .ok_or_else(|| HarnessError::NoSuchThing {
+            kind,
+            name: name.to_owned(),
+            meant: suggest(name, names.clone()),
+            known: names.collect::<Vec<_>>().join(", "),
+        })
+}
+
+fn overview(nav: &ModelDescription, out: &mut Out<'_>) -> Result<(), HarnessError> {
+    let missions = worlds::all()?;
+    out.say("Missions")?;
+    out.say(&pairs(missions.iter().map(|m| [m.name.clone(), m.about.clone()])))?;
+    out.say("\nFilters")?;
+    let items = nav.items("filter");
+    let about = |item: &EnumerationItem| item.description.clone().unwrap_or_default();
+    out.say(&pairs(items.iter().map(|item| [item.name.clone(), about(item)])))?;
+    out.say("\nMore of each: list WHAT [NAME], as in 'list filters milton'")?;
+    out.say(&pairs(
+        [
+            ["missions", "length, filters, and what a source claims of them"],
+            ["filters", "presets, parameters and search ranges"],
+            ["presets", "every parameter set"],
+            [
+                "parameters",
+                "what --set and --vary change: fmu-truth, fmu-nav, or one prefix of them",
+            ],
+            ["ports", "variables that connect truth and filters"],
+            ["distributions", "what --vary draws from"],
+            ["metrics", "columns of the CSV files, what requirements are about"],
+        ]
+        .map(|row| row.map(str::to_owned))
+        .into_iter(),
+    ))?;
+    out.tell("missions", missions.iter().map(|m| &m.name).collect::<Vec<_>>())?;
+    out.tell("filters", items.iter().map(|item| &item.name).collect::<Vec<_>>())
+}
+
+fn missions(name: Option<&str>, out: &mut Out<'_>) -> Result<(), HarnessError> {
+    let all = worlds::all()?;
+    if let Some(name) = name {
+        known("mission", name, all.iter().map(|m| m.name.as_str()))?;
+    }
+    let mut told = Vec::new();
+    for s in all.iter().filter(|m| name.is_none_or(|name| m.name == name)) {
         let filters: Vec<String> = s.filters.iter().map(FilterChoice::to_string).collect();
-        text.push_str(&format!("    filters: {}\n", filters.join(",")));
+        out.say(&format!("{}: {}", s.name, s.about))?;
+        out.say(&format!(
+            "  {} s, scored from {} s; {}\n  filters: {}",
+            s.duration_s,
+            s.scored_from_s,
+            s.reference,
+            filters.join(", ")
+        ))?;
         let same = |a: &Claim, b: &Claim| (a.filter, a.text, a.bound) == (b.filter, b.text, b.bound);
         for together in claims::of(&s.name).chunk_by(same) {
             let columns: Vec<&str> = together.iter().map(|c| c.column).collect();
             if let Some(claim) = together.first() {
                 let (columns, range) = (columns.join(", "), claim.bound.words(|end| end.to_string()));
-                text.push_str(&format!("    {} {columns} {range}: {}\n", claim.filter, claim.text));
+                out.say(&format!("  claim: {} {columns} {range}: {}", claim.filter, claim.text))?;
             }
         }
+        out.say("")?;
+        told.push(json!({
+            "name": s.name, "about": s.about, "duration_s": s.duration_s, "scored_from_s": s.scored_from_s,
+            "reference": s.reference, "filters": filters,
+        }));
     }
-    Ok(text)
+    out.tell("missions", told)
+}
+
+fn filters(nav: &ModelDescription, name: Option<&str>, out: &mut Out<'_>) -> Result<(), HarnessError> {
+    let items = nav.items("filter");
+    let told = filters_of(nav)?;
+    if let Some(name) = name {
+        known("filter", name, items.iter().map(|item| item.name.as_str()))?;
+    }
+    let mut said = Vec::new();
+    for item in items.iter().filter(|item| name.is_none_or(|name| item.name == name)) {
+        out.say(&describe_filter(nav, &told, item))?;
+        let presets = told.presets_of(&item.name).map(|p| p.name.as_str());
+        let own = parameters(nav).filter(|v| prefix(&v.name) == item.name);
+        said.push(json!({
+            "name": item.name, "about": item.description, "presets": presets.collect::<Vec<_>>(),
+            "parameters": own.map(variable_json).collect::<Vec<_>>(),
+        }));
+    }
+    out.tell("filters", said)
+}
+
+fn sets(nav: &ModelDescription, name: Option<&str>, out: &mut Out<'_>) -> Result<(), HarnessError> {
+    let told = filters_of(nav)?;
+    if let Some(name) = name {
+        known(
+            "filter",
+            name,
+            nav.items("filter").iter().map(|item| item.name.as_str()),
+        )?;
+    }
+    let mut said = Vec::new();
+    for preset in told.presets.iter().filter(|p| name.is_none_or(|name| p.filter == name)) {
+        let values: Vec<String> = preset
+            .sets
+            .iter()
+            .map(|s| format!("{} = {}", s.variable, s.value))
+            .collect();
+        out.say(&format!("{}@{}: {}", preset.filter, preset.name, preset.about))?;
+        out.say(&format!("  {}", values.join("\n  ")))?;
+        let values = preset
+            .sets
+            .iter()
+            .map(|s| (s.variable.clone(), Value::from(s.value.clone())));
+        said.push(json!({
+            "filter": preset.filter, "name": preset.name, "about": preset.about,
+            "values": values.collect::<serde_json::Map<_, _>>(),
+        }));
+    }
+    out.tell("presets", said)
+}
+
+/// Parameters of one FMU, or of both; those of one filter or part of the world alone, if one is named.
+fn parameters_of(
+    truth: &ModelDescription,
+    nav: &ModelDescription,
+    model: Option<&str>,
+    of: Option<&str>,
+    out: &mut Out<'_>,
+) -> Result<(), HarnessError> {
+    if let Some(model) = model {
+        known("model", model, [TRUTH, NAV].into_iter())?;
+    }
+    for (name, title, description) in [(TRUTH, "the world", truth), (NAV, "the filters", nav)] {
+        if model.is_some_and(|model| model != name) {
+            continue;
+        }
+        if let Some(of) = of {
+            let mut owners: Vec<&str> = parameters(description).map(|v| prefix(&v.name)).collect();
+            owners.dedup();
+            known("group of parameters", of, owners.iter().copied())?;
+        }
+        let own = || parameters(description).filter(|v| of.is_none_or(|of| prefix(&v.name) == of));
+        out.say(&format!(
+            "Parameters of {title} (--set {name}.NAME=VALUE)\n{}\n",
+            variables(own())
+        ))?;
+        out.tell(name, own().map(variable_json).collect::<Vec<_>>())?;
+    }
+    Ok(())
+}
+
+fn ports(out: &mut Out<'_>) -> Result<(), HarnessError> {
+    let mut table = plain(["name", "shape", "unit", "meaning"]);
+    let mut told = Vec::new();
+    for port in PORTS {
+        let (shape, unit) = (shape(port.shape), port.unit(0));
+        table.add_row([
+            format!("  {}", port.name),
+            shape.clone(),
+            unit.to_owned(),
+            port.about(0).to_owned(),
+        ]);
+        told.push(json!({"name": port.name, "shape": shape, "unit": unit, "about": port.about(0)}));
+    }
+    out.say(&lines(&table))?;
+    out.tell("ports", told)
+}
+
+fn shape(shape: Shape) -> String {
+    match shape {
+        Shape::Scalar => "1".to_owned(),
+        Shape::Vector(n) => n.to_string(),
+        Shape::Matrix(rows, columns) => format!("{rows}x{columns}"),
+    }
+}
+
+fn distributions(out: &mut Out<'_>) -> Result<(), HarnessError> {
+    out.say(&pairs(DISTRIBUTIONS.iter().map(|row| row.map(str::to_owned))))?;
+    let told = DISTRIBUTIONS
+        .iter()
+        .map(|[form, about]| json!({"form": form, "about": about}));
+    out.tell("distributions", told.collect::<Vec<_>>())
+}
+
+fn metrics(file: Option<&str>, out: &mut Out<'_>) -> Result<(), HarnessError> {
+    let all = columns::all();
+    if let Some(file) = file {
+        known("file", file, all.iter().map(|f| f.file))?;
+    }
+    for own in all.iter().filter(|f| file.is_none_or(|file| f.file == file)) {
+        let mut table = plain(["column", "unit", "meaning"]);
+        table.add_rows(own.columns.iter().map(|[name, unit, meaning]| {
+            let name = format!("  {name}");
+            [name, (*unit).to_owned(), (*meaning).to_owned()]
+        }));
+        out.say(&format!("{}: one row for {}\n{}\n", own.file, own.about, lines(&table)))?;
+        let told = own
+            .columns
+            .iter()
+            .map(|[name, unit, meaning]| json!({"name": name, "unit": unit, "meaning": meaning}));
+        out.tell(own.file, told.collect::<Vec<_>>())?;
+    }
+    Ok(())
 }
 
 fn describe_filter(nav: &ModelDescription, told: &Filters, item: &EnumerationItem) -> String {
@@ -114,13 +297,8 @@ fn prefix(name: &str) -> &str {
 
 /// A table of names, start values, units and meanings.
 pub(super) fn variables<'a>(list: impl Iterator<Item = &'a Variable>) -> String {
-    let mut table = Table::new();
-    table
-        .load_style(presets::NOTHING)
-        .set_content_arrangement(ContentArrangement::Dynamic);
-    table.set_header(["  name", "start", "unit", "meaning"]);
+    let mut table = plain(["name", "start", "unit", "meaning"]);
     for v in list {
-        let start = v.start().map(|s| v.format_value(&s)).unwrap_or_default();
         let mut meaning = v.description.clone().unwrap_or_default();
         if let Some(items) = v.enumeration_items() {
             let names: Vec<&str> = items.iter().map(|i| i.name.as_str()).collect();
@@ -128,10 +306,92 @@ pub(super) fn variables<'a>(list: impl Iterator<Item = &'a Variable>) -> String 
         }
         table.add_row([
             format!("  {}", v.name),
-            start,
+            start(v),
             v.unit().unwrap_or_default().to_owned(),
             meaning,
         ]);
     }
     lines(&table)
+}
+
+fn start(v: &Variable) -> String {
+    v.start().map(|s| v.format_value(&s)).unwrap_or_default()
+}
+
+/// A variable for programs.
+pub(super) fn variable_json(v: &Variable) -> Value {
+    json!({"name": v.name, "start": start(v), "unit": v.unit(), "about": v.description})
+}
+
+/// Names and what they are, in two columns that fit the terminal.
+fn pairs(rows: impl Iterator<Item = [String; 2]>) -> String {
+    let mut table = plain::<0>([]);
+    table.add_rows(rows.map(|[name, about]| [format!("  {name}"), about]));
+    lines(&table)
+}
+
+/// A table without rules that fits the terminal.
+fn plain<const N: usize>(header: [&str; N]) -> Table {
+    let mut table = Table::new();
+    table
+        .load_style(presets::NOTHING)
+        .set_content_arrangement(ContentArrangement::Dynamic);
+    if N > 0 {
+        let mut header: Vec<String> = header.map(str::to_owned).to_vec();
+        header[0] = format!("  {}", header[0]);
+        table.set_header(header);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(line: &[&str]) -> Result<String, String> {
+        use clap::Parser as _;
+        let all = ["trade-harness", "list"].iter().chain(line);
+        let cli = crate::cli::Cli::try_parse_from(all).map_err(|error| error.to_string())?;
+        let crate::cli::Command::List(args) = cli.command else {
+            return Err("another command".to_owned());
+        };
+        let mut text = Vec::new();
+        let mut out = Out::new(&mut text, cli.json);
+        list(&args, &mut out).map_err(|error| error.to_string())?;
+        out.end().map_err(|error| error.to_string())?;
+        String::from_utf8(text).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn everything_is_listed_as_text_and_as_json() {
+        for (line, says) in [
+            (&[][..], "nrho_venting"),
+            (&["missions", "formation"], "observer"),
+            (&["filters", "milton"], "milton.m_b"),
+            (&["presets"], "milton@consistent"),
+            (&["parameters"], "lidar.sigma_range"),
+            (&["parameters", "fmu-nav", "snc"], "snc.q"),
+            (&["ports"], "est.r_tc_n"),
+            (&["distributions"], "lognormal:MEDIAN:FACTOR"),
+            (&["metrics", "summary.csv"], "pos_rmse_m"),
+        ] {
+            let text = said(line).unwrap();
+            assert!(text.contains(says), "{line:?}: {text}");
+            let json = said(&[line, &["--json"]].concat()).unwrap();
+            let value: Value = serde_json::from_str(&json).unwrap();
+            assert!(value.as_object().is_some_and(|o| !o.is_empty()), "{line:?}");
+        }
+        assert!(!said(&["filters", "snc"]).unwrap().contains("milton.m_b"));
+    }
+
+    #[test]
+    fn what_is_not_there_is_told_with_the_nearest_name() {
+        let error = said(&["filters", "miltno"]).unwrap_err();
+        assert!(
+            error.contains("miltno") && error.contains("did you mean 'milton'"),
+            "{error}"
+        );
+        assert!(said(&["missions", "mars"]).unwrap_err().contains("leo_venting"));
+        assert!(said(&["widgets"]).unwrap_err().contains("distributions"));
+    }
 }

@@ -1,20 +1,20 @@
 //! `merge`: the parts of a study put together, as if one process had done them all.
 
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use study::{Engine, Journal, Models, Plan, Study};
 
 use super::finished::{Finished, finish};
 use super::kept::{KEPT, Kept, SHARDS};
+use super::out::Out;
 use super::progress::run_watched;
 use super::shared::{Verdict, cast, scratch};
 use crate::HarnessError;
 use crate::cli::MergeArgs;
 use crate::store::{Claim, StudyFolder, identity};
 
-pub(super) fn merge(args: &MergeArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+pub(super) fn merge(args: &MergeArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     let wrong = |problem: String| HarnessError::Shards {
         path: args.dir.clone(),
         problem,
@@ -68,7 +68,8 @@ pub(super) fn merge(args: &MergeArgs, out: &mut dyn Write) -> Result<Verdict, Ha
         studies: &studies,
         results: &results?,
         workers: &[],
-        page: true,
+        page: plan.output.report,
+        wide: args.wide,
     };
     finish(folder, finished, &models, &plan, out)?;
     let shards = args.dir.join(SHARDS);

@@ -1,6 +1,5 @@
 //! What each command of the command line does.
 
-mod columns;
 mod compare;
 mod files;
 mod finished;
@@ -9,6 +8,7 @@ mod kept;
 mod list;
 mod merge;
 mod mission;
+mod out;
 mod pack;
 mod progress;
 mod replay;
@@ -21,17 +21,20 @@ mod worker;
 use std::io;
 use std::process::ExitCode;
 
+use clap::CommandFactory as _;
 use study::{StudyError, chain};
 
 use crate::HarnessError;
-use crate::cli::{Cli, Command};
+use crate::cli::{Cli, Command, ListArgs, Listed};
 use crate::temporary::Temporary;
+use out::Out;
 use shared::{INTERRUPTED, Verdict, note};
 
 /// Runs a command: exit code 0 when done, 1 when bounds were missed, 2 when it could not do its work, 130 when it was asked to
 /// stop.
 pub fn execute(cli: Cli) -> ExitCode {
-    let mut out = io::stdout().lock();
+    let mut stdout = io::stdout().lock();
+    let mut out = Out::new(&mut stdout, cli.json);
     // A worker's is its parent's.
     let _temporary = if matches!(cli.command, Command::Worker(_)) {
         None
@@ -49,21 +52,54 @@ pub fn execute(cli: Cli) -> ExitCode {
         Command::Reproduce(args) => reproduce::reproduce(&args, &mut out),
         Command::Inspect(args) => inspect::inspect(&args, &mut out),
         Command::Mission(command) => mission::mission(&command, &mut out),
-        Command::Columns => columns::columns(&mut out),
+        Command::Columns => list::list(&ListArgs::of(Listed::Metrics), &mut out),
+        Command::Completions { shell } => {
+            completions(shell);
+            return ExitCode::SUCCESS;
+        }
         Command::Worker(args) => worker::worker(&args),
     };
-    match result {
+    let result = result.and_then(|verdict| out.tell("verdict", verdict).map(|()| verdict));
+    let code = match result {
         Ok(Verdict::Done) => ExitCode::SUCCESS,
         Ok(Verdict::BoundsMissed) => ExitCode::from(1),
         // Whoever reads our output has seen enough, as in `list | head`.
         Err(HarnessError::Write { source, .. }) if source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(HarnessError::Study(error)) if matches!(*error, StudyError::Stopped) => {
+            out.start_over();
             note("stopped as asked; every finished run is kept: the same command with --resume goes on");
             ExitCode::from(INTERRUPTED)
         }
+        Err(error) => {
+            if out.start_over() {
+                // Whether or not it can be told.
+                let _ = out
+                    .tell("error", error.to_string())
+                    .and_then(|()| out.tell("causes", causes(&error)));
+            }
+            note(&format!("error: {}", chain(&error)));
+            ExitCode::from(2)
+        }
+    };
+    match out.end() {
+        Ok(()) => code,
+        Err(HarnessError::Write { source, .. }) if source.kind() == io::ErrorKind::BrokenPipe => code,
         Err(error) => {
             note(&format!("error: {}", chain(&error)));
             ExitCode::from(2)
         }
     }
+}
+
+/// A script for a shell, on standard output.
+fn completions(shell: clap_complete::Shell) {
+    let mut command = Cli::command();
+    clap_complete::generate(shell, &mut command, "trade-harness", &mut io::stdout().lock());
+}
+
+/// What lies below an error, from the nearest on.
+fn causes(error: &dyn std::error::Error) -> Vec<String> {
+    std::iter::successors(error.source(), |cause| cause.source())
+        .map(ToString::to_string)
+        .collect()
 }

@@ -1,18 +1,17 @@
 //! `replay`: one run, sample by sample.
 
-use std::io::Write;
-
 use nalgebra::Vector3;
 
 use study::{Estimate, Plan, Quantity, Record, StudyError, TruthSample, World, rehearse, run_once, score};
 
-use super::shared::{Verdict, changed, models, note, say, scratch};
+use super::out::Out;
+use super::shared::{Verdict, changed, models, note, scratch};
 use crate::HarnessError;
 use crate::cli::ReplayArgs;
 use crate::format::{cell, finished};
 use crate::output::{prepare_file, write_whole};
 
-pub(super) fn replay(args: &ReplayArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+pub(super) fn replay(args: &ReplayArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     prepare_file(&args.out)?;
     let plan = Plan {
         scenarios: if args.mission.is_none() {
@@ -51,14 +50,12 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut dyn Write) -> Result<Verdict, 
             note(&format!("failed: {}{when}: {}", filter.label, failure.message));
         }
     }
-    say(
-        out,
-        &format!(
-            "{} ({} samples)",
-            args.out.display(),
-            lines.iter().map(Vec::len).sum::<usize>()
-        ),
-    )?;
+    out.tell("file", &args.out)?;
+    out.say(&format!(
+        "{} ({} samples)",
+        args.out.display(),
+        lines.iter().map(Vec::len).sum::<usize>()
+    ))?;
     Ok(Verdict::Done)
 }
 

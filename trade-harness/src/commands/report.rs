@@ -1,17 +1,16 @@
 //! `report`: the HTML page of a study, from its files.
 
-use std::io::Write;
-
 use html_report::Format;
 
-use super::shared::{Verdict, say};
+use super::out::Out;
+use super::shared::Verdict;
 use crate::HarnessError;
 use crate::cli::ReportArgs;
 use crate::output::OutputFolder;
 
 const PAGE: &str = "report.html";
 
-pub(super) fn report(args: &ReportArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+pub(super) fn report(args: &ReportArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     // Before anything is written: what is no study stays as it is.
     let page = html_report::html(&args.dir)?;
     let mut files = vec![(PAGE.to_owned(), page.into_bytes())];
@@ -21,9 +20,12 @@ pub(super) fn report(args: &ReportArgs, out: &mut dyn Write) -> Result<Verdict, 
         }
     }
     let folder = OutputFolder::prepare(&args.dir)?;
-    for name in folder.write_all(files)? {
+    let names = folder.write_all(files)?;
+    out.tell("folder", folder.path())?;
+    out.tell("files", &names)?;
+    for name in names {
         if !args.quiet {
-            say(out, &folder.path().join(name).display().to_string())?;
+            out.say(&folder.path().join(name).display().to_string())?;
         }
     }
     Ok(Verdict::Done)

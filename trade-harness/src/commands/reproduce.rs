@@ -1,11 +1,11 @@
 //! `reproduce`: both papers rerun and held beside what they print.
 
-use std::io::Write;
-
+use serde_json::json;
 use study::{Engine, Models, Plan, Study, StudyError, StudyResult, rehearse, run_once};
 
+use super::out::Out;
 use super::progress::run_watched;
-use super::shared::{Verdict, closing, models, note, say};
+use super::shared::{Verdict, closing, models, note};
 use crate::HarnessError;
 use crate::cli::ReproduceArgs;
 use crate::format::number;
@@ -17,7 +17,7 @@ use crate::reproduce::{CHAPTERS, FirstRun, Laboratory, MEANT_RUNS, Notebook, Req
 /// Below this, standard errors are so large that a bound says little.
 const FEW_RUNS: u32 = 30;
 
-pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+pub(super) fn reproduce(args: &ReproduceArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     let folder = OutputFolder::prepare(&args.out)?;
     let mut bench = Bench::new(args)?;
     if args.work.runs() < FEW_RUNS {
@@ -36,35 +36,38 @@ pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<Ver
         for (title, line) in &notebook.lines[said..] {
             if *title != chapter {
                 chapter = title;
-                say(out, &format!("\n{title}"))?;
+                out.say(&format!("\n{title}"))?;
             }
-            say(out, &line_text(line))?;
+            out.say(&line_text(line))?;
         }
         said = notebook.lines.len();
         write(&folder, notebook, &heading).map(|_| ())
     })?;
-    say(out, "\nTime per step of each filter")?;
+    out.say("\nTime per step of each filter")?;
     for row in &notebook.timings {
         let cost = number(Some(row.nav_us_per_step));
-        say(
-            out,
-            &format!("{cost:>8} us  {}, {}: {}", row.scenario, row.case, row.filter),
-        )?;
+        out.say(&format!("{cost:>8} us  {}, {}: {}", row.scenario, row.case, row.filter))?;
     }
 
     let mut files = write(&folder, &notebook, &heading)?;
     let studies = notebook.studies.clone();
     Manifest::new(&bench.models, studies, bench.jobs, notebook.wall).write(&folder, &mut files)?;
     let missed = notebook.missed().count();
-    say(
-        out,
-        &format!(
-            "\n{missed} of {} required bounds missed; {:.0} s on {} threads",
-            notebook.lines.iter().filter(|(_, line)| line.required).count(),
-            notebook.wall.as_secs_f64(),
-            bench.jobs
-        ),
-    )?;
+    out.tell("missed", missed)?;
+    let lines = notebook.lines.iter().map(|(chapter, line)| {
+        json!({
+            "chapter": chapter, "paper": line.paper, "item": line.item, "quantity": line.quantity, "unit": line.unit,
+            "paper_value": line.printed, "value": line.value, "standard_error": line.standard_error,
+            "required": line.required, "verdict": line.verdict().text(), "note": line.note,
+        })
+    });
+    out.tell("lines", lines.collect::<Vec<_>>())?;
+    out.say(&format!(
+        "\n{missed} of {} required bounds missed; {:.0} s on {} threads",
+        notebook.lines.iter().filter(|(_, line)| line.required).count(),
+        notebook.wall.as_secs_f64(),
+        bench.jobs
+    ))?;
     closing(&folder, &files, out)?;
     Ok(if missed > 0 {
         Verdict::BoundsMissed

@@ -1,10 +1,13 @@
 //! What several commands need.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
 use study::{Assignment, ForeignFilter, Models, NAV, OwnFmus, Plan, Study, TRUTH, Variation, stop, stop_asked};
 
+use super::out::Out;
 use crate::HarnessError;
 use crate::cli::{BuildArgs, StudyArgs, WorkArgs, WorldArgs};
 use crate::output::OutputFolder;
@@ -16,7 +19,8 @@ use crate::tuning::sets::{TunedFile, add};
 pub(super) const INTERRUPTED: u8 = 130;
 
 /// How a command that could do its work ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub(super) enum Verdict {
     Done,
     BoundsMissed,
@@ -27,24 +31,35 @@ pub(super) fn note(text: &str) {
     let _ = writeln!(io::stderr(), "{text}");
 }
 
-/// A line on the output.
-pub(super) fn say(out: &mut dyn Write, text: &str) -> Result<(), HarnessError> {
-    writeln!(out, "{text}").map_err(|source| HarnessError::Write {
-        path: "the output".into(),
-        source,
-    })
-}
-
 /// The last lines of a study: what it took, how to repeat it and where its results are.
-pub(super) fn closing(folder: &OutputFolder, files: &[String], out: &mut dyn Write) -> Result<(), HarnessError> {
+pub(super) fn closing(folder: &OutputFolder, files: &[String], out: &mut Out<'_>) -> Result<(), HarnessError> {
     if let Some(peak) = peak_memory_mib() {
-        say(out, &format!("Memory:  {peak:.0} MiB at most"))?;
+        out.say(&format!("Memory:  {peak:.0} MiB at most"))?;
     }
     let line: Vec<String> = std::env::args().skip(1).collect();
-    say(out, &format!("Command: trade-harness {}", line.join(" ")))?;
-    let path = |name: &String| folder.path().join(name).display().to_string();
-    let shown: Vec<String> = files.iter().map(path).collect();
-    say(out, &format!("Files:   {}", shown.join("\n         ")))
+    out.say(&format!("Command: trade-harness {}", line.join(" ")))?;
+    // One line for each folder: studies of many filters have a file for each.
+    let (mut whole, mut inside) = (Vec::new(), BTreeMap::<&str, usize>::new());
+    for name in files {
+        match name.split_once('/') {
+            Some((folder, _)) => *inside.entry(folder).or_default() += 1,
+            None => whole.push(name.clone()),
+        }
+    }
+    whole.extend(
+        inside
+            .iter()
+            .map(|(folder, count)| format!("{folder}/ ({count} files)")),
+    );
+    out.say(&format!("Results: {}", folder.path().display()))?;
+    out.say(&textwrap::fill(
+        &whole.join(", "),
+        textwrap::Options::new(80)
+            .initial_indent("         ")
+            .subsequent_indent("         "),
+    ))?;
+    out.tell("folder", folder.path())?;
+    out.tell("files", files)
 }
 
 /// Paths of our FMUs that are needed, built and packed unless that is not wanted.

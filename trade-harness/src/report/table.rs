@@ -9,12 +9,29 @@ use crate::format::{number, plain_table};
 
 /// How to read the columns, below each table.
 pub const LEGEND: &str = "\
+NEES, NIS: 1 on average when consistent, above when the filter claims too little
+error; runs that failed or diverged. More columns: --wide, and summary.csv";
+
+/// The same, below the wide table.
+pub const WIDE_LEGEND: &str = "\
 ratio: sigma the filter claims / sigma of its errors (1 honest, above 1 too modest, below 1 overconfident)
 mean err: mean error over its sampling noise (about 1 when unbiased); NEES, NIS: 1 on average when consistent
 nav: time in the filter's fmi2DoStep; FMI: share of the time of truth and filter spent on the interface, not the models";
 
-/// Headings and the columns of `summary.csv` below them.
-const SHOWN: [(&str, &str); 13] = [
+/// Headings and the columns of `summary.csv` below them; they fit 80 columns.
+const SHOWN: [(&str, &str); 8] = [
+    ("filter", "filter"),
+    ("pos RMSE\n[m]", "pos_rmse_m"),
+    ("vel RMSE\n[m/s]", "vel_rmse_m_s"),
+    ("acc RMSE\n[m/s2]", "acc_rmse_m_s2"),
+    ("NEES", "nees"),
+    ("NIS", "nis"),
+    ("failed", "failed"),
+    ("diver-\nged", "diverged"),
+];
+
+/// The same of the wide table.
+const WIDE: [(&str, &str); 13] = [
     ("filter", "filter"),
     ("pos RMSE\n[m]", "pos_rmse_m"),
     ("vel RMSE\n[m/s]", "vel_rmse_m_s"),
@@ -33,18 +50,44 @@ const SHOWN: [(&str, &str); 13] = [
 /// Headings of what a filter cost.
 const COST: [&str; 2] = ["nav\n[us/step]", "FMI\n[%]"];
 
-/// The table of one world, without a final newline.
-pub fn render(rows: &[Summary], timings: &[TimingRow]) -> String {
+/// Longest name of a filter in a table that fits 80 columns.
+const LONGEST: usize = 19;
+
+/// The table of one world, without a final newline; it fits 80 columns.
+pub fn render(rows: &[Summary]) -> String {
+    let cells = rows.iter().map(|row| {
+        let shown = SHOWN.iter().filter_map(|(_, name)| find(COLUMNS, name));
+        let mut cells: Vec<String> = shown.map(|c| c.cell(row).short()).collect();
+        if let Some(label) = cells.first_mut() {
+            *label = shortened(label);
+        }
+        cells
+    });
+    plain_table(SHOWN.iter().map(|(heading, _)| *heading), 1, cells)
+}
+
+/// A label without its middle, where it is too long.
+fn shortened(label: &str) -> String {
+    let letters: Vec<char> = label.chars().collect();
+    if letters.len() <= LONGEST {
+        return label.to_owned();
+    }
+    let (begin, end) = (LONGEST / 2, letters.len() - (LONGEST - LONGEST / 2 - 1));
+    letters[..begin].iter().chain(&['…']).chain(&letters[end..]).collect()
+}
+
+/// The table with all columns.
+pub fn render_wide(rows: &[Summary], timings: &[TimingRow]) -> String {
     let cells = rows.iter().map(|row| {
         let same = |t: &&TimingRow| t.scenario == row.scenario && t.filter == row.filter && t.case == row.case;
         let timing = timings.iter().find(same);
-        let shown = SHOWN.iter().filter_map(|(_, name)| find(COLUMNS, name));
+        let shown = WIDE.iter().filter_map(|(_, name)| find(COLUMNS, name));
         let mut cells: Vec<String> = shown.map(|c| c.cell(row).short()).collect();
         cells.push(number(timing.map(|t| t.nav_us_per_step)));
         cells.push(timing.map_or_else(|| number(None), |t| format!("{:.1}", 100.0 * t.fmi_share)));
         cells
     });
-    plain_table(SHOWN.iter().map(|(heading, _)| *heading).chain(COST), 1, cells)
+    plain_table(WIDE.iter().map(|(heading, _)| *heading).chain(COST), 1, cells)
 }
 
 /// RMSE, ratio of sigmas on each axis, and coverage of each quantity of one world, without a final newline.
@@ -111,7 +154,18 @@ mod tests {
 
     #[test]
     fn every_column_shown_exists() {
-        assert!(SHOWN.iter().all(|(_, name)| find(COLUMNS, name).is_some()));
+        assert!(SHOWN.iter().chain(&WIDE).all(|(_, name)| find(COLUMNS, name).is_some()));
+    }
+
+    #[test]
+    fn the_table_fits_a_terminal_of_80_columns_whatever_the_filter_is_called() {
+        let mut wide = row("constrained_q@full-tuned-once-more", Some(1.234e-5));
+        (wide.failed, wide.diverged) = (10_000, 10_000);
+        (wide.nees.mean, wide.nis.mean) = (Some(1234.0), Some(0.9876));
+        let text = render(&[row("milton", Some(4.2e-5)), wide]);
+        assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+        assert!(text.contains('…'), "{text}");
+        assert!(LEGEND.lines().all(|line| line.chars().count() <= 80));
     }
 
     #[test]
@@ -127,7 +181,7 @@ mod tests {
             fmi_share: 0.1234,
             steps: 1,
         };
-        let text = render(&[row("milton", Some(4.2e-5)), row("snc", None)], &[timing]);
+        let text = render_wide(&[row("milton", Some(4.2e-5)), row("snc", None)], &[timing]);
         let expected = include_str!("table_snapshot.txt");
         assert_eq!(text, expected.trim_end_matches('\n'), "\n{text}");
     }

@@ -1,7 +1,6 @@
 //! `mission check`: a mission read, flown without noise, and shown.
 
 use std::fmt::Write as _;
-use std::io::Write;
 use std::path::Path;
 
 use astro::harmonics::{EGM96, Extent};
@@ -12,7 +11,8 @@ use nalgebra::Vector3;
 use rasciigraph::Config;
 use study::{MISSION, Models, Plan, StudyError, World, rehearse};
 
-use super::super::shared::{Verdict, models, say, scratch};
+use super::super::out::Out;
+use super::super::shared::{Verdict, models, scratch};
 use super::quiet_run::{Point, QuietRun, run_quietly};
 use crate::HarnessError;
 use crate::cli::MissionCheckArgs;
@@ -20,11 +20,13 @@ use crate::cli::MissionCheckArgs;
 /// Halving the time grid may move the relative position by this much, m.
 const FINE_ENOUGH: f64 = 1e-3;
 
-pub(super) fn check(args: &MissionCheckArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+pub(super) fn check(args: &MissionCheckArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     let plan = plan(args)?;
     let folder = scratch()?;
     let world = only_world(&plan, folder.path())?;
-    say(out, &head(&world))?;
+    out.say(&head(&world))?;
+    out.tell("mission", &world.mission)?;
+    out.tell("notes", &world.notes)?;
     let models = models(&plan, &args.build)?;
     // What the filters make of it, names of laws above all, is told before anything is flown.
     rehearse(&models.spec(
@@ -41,13 +43,13 @@ pub(super) fn check(args: &MissionCheckArgs, out: &mut dyn Write) -> Result<Verd
     if quiet.seen.values().all(|seen| seen.valid == 0) {
         return Err(HarnessError::SeesNothing);
     }
-    say(out, &orbits(&world, &quiet)?)?;
-    say(out, &approach(&quiet))?;
-    say(out, &events(&world.mission))?;
-    say(out, &sensors(&world, &quiet))?;
-    say(out, &plot(&quiet))?;
+    out.say(&orbits(&world, &quiet)?)?;
+    out.say(&approach(&quiet))?;
+    out.say(&events(&world.mission))?;
+    out.say(&sensors(&world, &quiet))?;
+    out.say(&plot(&quiet))?;
     for note in &world.notes {
-        say(out, &format!("note: {note}"))?;
+        out.say(&format!("note: {note}"))?;
     }
     if args.once {
         return Ok(Verdict::Done);
@@ -308,7 +310,7 @@ fn grid(
     models: &Models,
     world: &World,
     quiet: &QuietRun,
-    out: &mut dyn Write,
+    out: &mut Out<'_>,
 ) -> Result<Verdict, HarnessError> {
     let step = world.mission.time.grid_s;
     let halved = format!("{MISSION}.time.grid_s={:?}", 0.5 * step);
@@ -320,6 +322,7 @@ fn grid(
     let again = run_quietly(models, &finer, &only_world(&finer, folder.path())?, args.run)?;
     let moved = quiet.apart_from(&again);
     let fine = moved <= FINE_ENOUGH;
+    out.tell("half_grid_moves_m", moved)?;
     // The error of the scheme falls with the fourth power of its step.
     let advice = if fine {
         "fine enough".to_owned()
@@ -327,9 +330,7 @@ fn grid(
         let factor = (moved / FINE_ENOUGH).powf(0.25).ceil().max(2.0);
         format!("too coarse: set time.grid_s to about {:?}", step / factor)
     };
-    say(
-        out,
-        &format!(
+    out.say(&format!(
             "Time grid: halving {step} s moves the relative position by {moved:.2e} m at most over the run, {FINE_ENOUGH:e} m are \
              allowed: {advice}"
         ),

@@ -3,26 +3,25 @@
 mod check;
 mod quiet_run;
 
-use std::io::Write;
-
 use interface::mission::{embedded, schema};
 use study::StudyError;
 
-use super::shared::{Verdict, say};
+use super::out::Out;
+use super::shared::Verdict;
 use crate::HarnessError;
 use crate::cli::{MissionCommand, MissionNewArgs};
 use crate::output::{prepare_file, write_whole};
 
-pub(super) fn mission(command: &MissionCommand, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+pub(super) fn mission(command: &MissionCommand, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     match command {
         MissionCommand::New(args) => new(args, out),
         MissionCommand::Check(args) => check::check(args, out),
-        MissionCommand::Schema => say(out, schema().trim_end()).map(|()| Verdict::Done),
+        MissionCommand::Schema => out.say(schema().trim_end()).map(|()| Verdict::Done),
     }
 }
 
 /// Writes the file of a mission that comes with the project under another name, comments and all.
-fn new(args: &MissionNewArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+fn new(args: &MissionNewArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     let from = embedded(&args.from).map_err(StudyError::from)?;
     let path = args.out.join(format!("{}.toml", args.name));
     if path.exists() {
@@ -40,12 +39,9 @@ fn new(args: &MissionNewArgs, out: &mut dyn Write) -> Result<Verdict, HarnessErr
         args.name, from.name
     );
     write_whole(&path, format!("{head}{}", document.text()).as_bytes())?;
-    say(
-        out,
-        &format!(
-            "{}\nNext: trade-harness mission check {0}\n      trade-harness compare --mission {0}",
-            path.display()
-        ),
-    )?;
+    out.say(&format!(
+        "{}\nNext: trade-harness mission check {0}\n      trade-harness compare --mission {0}",
+        path.display()
+    ))?;
     Ok(Verdict::Done)
 }

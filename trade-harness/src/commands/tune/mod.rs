@@ -3,10 +3,9 @@
 mod contest;
 mod results;
 
-use std::io::Write;
-
 use study::Plan;
 
+use super::out::Out;
 use super::progress::Progress;
 use super::shared::{Verdict, models, plan_of};
 use crate::HarnessError;
@@ -18,7 +17,7 @@ use crate::tuning::study::Options;
 use contest::{Contest, check_ranges};
 use results::Done;
 
-pub(super) fn tune(args: &TuneArgs, out: &mut dyn Write) -> Result<Verdict, HarnessError> {
+pub(super) fn tune(args: &TuneArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     let plan = plan_of(Plan::default(), &args.study, &args.worlds, &args.work)?;
     let options = options(args, &plan)?;
     let folder = OutputFolder::prepare(&args.out)?;

@@ -1,11 +1,10 @@
 //! What `tune` leaves behind: the tuned sets, the judged study, and every filter at its own best.
 
-use std::io::Write;
-
 use study::{Assignment, Models, Plan, Study, StudyResult, World};
 
 use super::super::files::Report;
-use super::super::shared::{Verdict, closing, say};
+use super::super::out::Out;
+use super::super::shared::{Verdict, closing};
 use super::contest::Contest;
 use crate::HarnessError;
 use crate::cli::TuneArgs;
@@ -102,21 +101,19 @@ impl Done {
         options: &Options,
         folder: &OutputFolder,
         files: &[String],
-        out: &mut dyn Write,
+        out: &mut Out<'_>,
     ) -> Result<Verdict, HarnessError> {
         let report = Report::new(&self.studies, &self.results, &[]);
         for (contest, ranking) in self.contests.iter().zip(self.rankings(&report, options)) {
             let heading = heading(&contest.world, args);
-            say(
-                out,
-                &format!(
-                    "{}: {heading}\n{}\n{}\n",
-                    contest.world.name,
-                    ranking.render(),
-                    best::LEGEND
-                ),
-            )?;
+            out.say(&format!(
+                "{}: {heading}\n{}\n{}\n",
+                contest.world.name,
+                ranking.render(),
+                best::LEGEND
+            ))?;
         }
+        out.tell("tuned", &self.file)?;
         closing(folder, files, out)?;
         Ok(Verdict::Done)
     }
