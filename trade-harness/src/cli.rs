@@ -131,6 +131,9 @@ pub struct StudyArgs {
     /// Tell what a variable of a foreign FMU is called here; repeatable
     #[arg(long = "map", value_name = "LABEL.THEIR_NAME=OUR_NAME")]
     pub mappings: Vec<Mapping>,
+    /// Read more of these from a TOML file: a table for each LABEL, of THEIR_NAME = "OUR_NAME"; repeatable
+    #[arg(long = "map-file", value_name = "FILE")]
+    pub map_files: Vec<PathBuf>,
     /// Read tuned sets that 'tune' has written; they go by NAME@tuned
     #[arg(long, value_name = "FILE")]
     pub tuned: Option<PathBuf>,

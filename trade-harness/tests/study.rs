@@ -421,3 +421,50 @@ fn a_filter_that_asks_for_the_truth_is_refused() {
     };
     assert_eq!(study(bound, 1).1[0].failed(), 0);
 }
+
+#[test]
+fn a_bound_reads_the_truth() {
+    let bound = Spec {
+        allow_truth: true,
+        ..spec(Quirk::None, &[("peeping", Quirk::AsksForTruth)])
+    };
+    let (_, filters) = study(bound, 1);
+    // Unfed, its first position would be 100 m off.
+    near(row(&filters[0]).position.rmse, rms_norm(0..RUNS));
+}
+
+#[test]
+fn outputs_of_filters_reach_neither_the_world_nor_each_other() {
+    let two = [("one", Quirk::Pushes), ("other", Quirk::Pushes)];
+    let (pushed_spec, pushed) = study(spec(Quirk::Pushes, &two), 1);
+    let plain = two.map(|(label, _)| (label, Quirk::None));
+    let (plain_spec, left_alone) = study(spec(Quirk::None, &plain), 1);
+    assert_eq!(files(&pushed_spec, &pushed), files(&plain_spec, &left_alone));
+}
+
+#[test]
+fn a_covariance_of_six_states_counts_as_six() {
+    let (_, filters) = study(spec(Quirk::None, &[("six", Quirk::SixBySix)]), 1);
+    let six = row(&filters[0]);
+    assert_eq!((six.failed, six.nees_dimension), (0, Some(6)));
+    near(six.nees.mean, 2.0 * rms_norm(0..RUNS).powi(2) / (SIGMA * SIGMA) / 6.0);
+}
+
+#[test]
+fn partial_shapes_are_refused_by_name_with_what_is_expected() {
+    for (quirk, parts) in [
+        (
+            Quirk::PartialCovariance,
+            ["'odd'", "'cov.p'", "80 variables", "6x6 or 9x9"],
+        ),
+        (
+            Quirk::PartialAcceleration,
+            ["'odd'", "'est.a_t_n'", "2 variables", "three Reals"],
+        ),
+    ] {
+        let text = rehearse(&spec(Quirk::None, &[("odd", quirk)])).unwrap_err().to_string();
+        for part in parts {
+            assert!(text.contains(part), "{text}");
+        }
+    }
+}

@@ -232,6 +232,12 @@ impl System {
         Ok(())
     }
 
+    /// Every port of a slave; none for a slave of another system.
+    #[must_use]
+    pub fn ports(&self, slave: SlaveId) -> &[Port] {
+        self.members.get(slave.0).map_or(&[], |m| m.ports.as_slice())
+    }
+
     /// The port of this name, if the slave has one.
     #[must_use]
     pub fn port(&self, slave: SlaveId, name: &str) -> Option<&Port> {

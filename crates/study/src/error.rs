@@ -226,6 +226,26 @@ pub enum StudyError {
         /// The input.
         input: String,
     },
+    /// A vector or matrix of which a filter offers another shape than can be read.
+    #[error("'{label}' offers '{name}' as {found}; expected are {expected}, or nothing of that name")]
+    Shape {
+        /// Participant.
+        label: String,
+        /// Name of the contract.
+        name: String,
+        /// What it offers.
+        found: String,
+        /// What can be read.
+        expected: &'static str,
+    },
+    /// A file of mappings that is none.
+    #[error("{}: {problem}", path.display())]
+    Mappings {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and where.
+        problem: String,
+    },
     /// Nothing feeds the initial estimate of a filter.
     #[error("'{label}' needs its initial estimate, but the truth offers no '{input}'")]
     MissingInput {

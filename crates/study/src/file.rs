@@ -79,6 +79,7 @@ impl Plan {
             .missions
             .iter_mut()
             .chain(&mut self.truth)
+            .chain(&mut self.map_files)
             .chain(&mut self.tuned_files);
         let foreign = self.foreign.iter_mut().map(|filter| &mut filter.path);
         files

@@ -79,6 +79,9 @@ pub struct Plan {
     /// Names in foreign FMUs.
     #[serde(rename = "map")]
     pub mappings: Vec<Mapping>,
+    /// Files of names whose mappings join `mappings`.
+    #[serde(rename = "map_file", skip_serializing_if = "Vec::is_empty")]
+    pub map_files: Vec<PathBuf>,
     /// Files of a search whose sets join `tuned`.
     #[serde(rename = "tuned_file", skip_serializing_if = "Vec::is_empty")]
     pub tuned_files: Vec<PathBuf>,
@@ -202,6 +205,7 @@ impl Default for Plan {
             foreign: Vec::new(),
             allow_truth: false,
             mappings: Vec::new(),
+            map_files: Vec::new(),
             tuned_files: Vec::new(),
             tuned: Vec::new(),
             isolation: Isolation::default(),
@@ -555,6 +559,7 @@ mod tests {
             foreign: vec!["other=b.fmu".parse().unwrap()],
             allow_truth: true,
             mappings: vec!["other.x=est.r_tc_n".parse().unwrap()],
+            map_files: vec!["names.toml".into()],
             tuned: vec![TunedSet {
                 file: None,
                 scenario: "formation".to_owned(),

@@ -3,7 +3,9 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use study::{Assignment, ForeignFilter, Models, NAV, OwnFmus, Plan, Study, TRUTH, Variation, stop, stop_asked};
+use study::{
+    Assignment, ForeignFilter, Models, NAV, OwnFmus, Plan, Study, TRUTH, Variation, read_mappings, stop, stop_asked,
+};
 
 use crate::HarnessError;
 use crate::cli::{BuildArgs, StudyArgs, WorkArgs, WorldArgs};
@@ -113,7 +115,7 @@ pub(super) fn scratch() -> Result<tempfile::TempDir, HarnessError> {
 /// replaces what the plan says of the same variable.
 ///
 /// # Errors
-/// A file of tuned sets that is none.
+/// A file of tuned sets or of mappings that is none.
 pub(super) fn changed(plan: Plan, study: &StudyArgs) -> Result<Plan, HarnessError> {
     let chosen = study.filters.iter().filter_map(|f| f.0.clone());
     let filters = (!study.filters.is_empty()).then(|| chosen.collect());
@@ -121,6 +123,11 @@ pub(super) fn changed(plan: Plan, study: &StudyArgs) -> Result<Plan, HarnessErro
     for path in plan.tuned_files.iter().chain(&study.tuned) {
         add(&mut tuned, &TunedFile::read(path)?.sets);
     }
+    let mut mappings = plan.mappings;
+    for path in plan.map_files.iter().chain(&study.map_files) {
+        mappings.extend(read_mappings(path)?);
+    }
+    mappings.extend(study.mappings.iter().cloned());
     let set = |model: &str, variable: &str| {
         let same = |a: &Assignment| a.model == model && a.variable == variable;
         study.assignments.iter().any(same)
@@ -148,11 +155,8 @@ pub(super) fn changed(plan: Plan, study: &StudyArgs) -> Result<Plan, HarnessErro
         truth: study.truth.clone().or(plan.truth),
         foreign: added(plan.foreign),
         allow_truth: plan.allow_truth || study.allow_truth,
-        mappings: plan
-            .mappings
-            .into_iter()
-            .chain(study.mappings.iter().cloned())
-            .collect(),
+        mappings,
+        map_files: Vec::new(),
         tuned_files: Vec::new(),
         tuned,
         ..plan
