@@ -238,6 +238,18 @@ pub enum StudyError {
         /// What can be read.
         expected: &'static str,
     },
+    /// A variable whose unit measures something else than its name says.
+    #[error("'{label}' offers '{name}' in '{found}', which cannot be converted to {expected}")]
+    Unit {
+        /// Participant.
+        label: String,
+        /// Name of the contract.
+        name: String,
+        /// Its unit.
+        found: String,
+        /// Unit of the contract.
+        expected: String,
+    },
     /// A file of mappings that is none.
     #[error("{}: {problem}", path.display())]
     Mappings {

@@ -20,6 +20,79 @@ fn required<T>(found: Result<T, CosimError>, participant: &Participant, name: &s
     })
 }
 
+/// Units of position, velocity and acceleration, as exponents of m and s.
+const UNITS: [[i32; 2]; 3] = [[1, 0], [1, -1], [1, -2]];
+
+/// Refuses a variable whose unit measures something else; one that says no unit is taken as it comes.
+///
+/// # Errors
+/// [`StudyError::Unit`].
+fn check_unit(system: &System, slave: SlaveId, label: &str, name: &str, [m, s]: [i32; 2]) -> Result<(), StudyError> {
+    let port = system.port(slave, name);
+    let Some(unit) = port.and_then(|port| port.unit.as_deref()) else {
+        return Ok(());
+    };
+    if unit.base.is_none_or(|base| base.exponents == [0, m, s, 0, 0, 0, 0, 0]) {
+        return Ok(());
+    }
+    Err(StudyError::Unit {
+        label: label.to_owned(),
+        name: name.to_owned(),
+        found: unit.name.clone(),
+        expected: in_words(m, s),
+    })
+}
+
+/// [`check_unit`] for the elements of position, velocity and acceleration.
+fn check_vectors(system: &System, slave: SlaveId, label: &str, names: [&str; 3]) -> Result<(), StudyError> {
+    for (name, unit) in names.into_iter().zip(UNITS) {
+        for axis in 1..=3 {
+            check_unit(system, slave, label, &format!("{name}[{axis}]"), unit)?;
+        }
+    }
+    Ok(())
+}
+
+/// A unit of m and s, as in 'm2/s3'.
+fn in_words(m: i32, s: i32) -> String {
+    let power = |unit: &str, n: i32| if n == 1 { unit.to_owned() } else { format!("{unit}{n}") };
+    if s == 0 {
+        power("'m", m) + "'"
+    } else {
+        format!("'{}/{}'", power("m", m), power("s", -s))
+    }
+}
+
+/// Whether a variable is `name` or an element of it.
+fn is_element(variable: &str, name: &str) -> bool {
+    let indices = variable.strip_prefix(name);
+    indices.is_some_and(|i| i.is_empty() || i.starts_with('['))
+}
+
+/// Names, without indices, of what a filter is fed or read whose unit it does not say, though the truth says its own.
+pub(crate) fn units_unsaid(system: &System, truth: SlaveId, filter: SlaveId, frame: Frame) -> Vec<String> {
+    let signals = frame.signals();
+    let says = |slave, name: &str| {
+        let unit = system
+            .port(slave, &format!("{name}[1]"))
+            .and_then(|port| port.unit.as_deref());
+        unit.is_some_and(|unit| unit.base.is_some())
+    };
+    let read = [signals.position, signals.velocity].map(|[of_truth, of_filter]| {
+        let silent = says(truth, of_truth) && !says(filter, of_filter);
+        silent.then(|| of_filter.to_owned())
+    });
+    let mut names: Vec<String> = Vec::new();
+    let fed = system.inputs_of_unknown_unit(filter).into_iter();
+    let fed = fed.map(|name| name.split('[').next().unwrap_or(name).to_owned());
+    for name in fed.chain(read.into_iter().flatten()) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
 /// Reads [`TruthSample`]s.
 pub(crate) struct TruthReader {
     /// Read at each communication point.
@@ -51,6 +124,8 @@ impl TruthReader {
         let mut vector = |name: &str| required(body.vec3(name), participant, name);
         let position = vector(signals.position[0])?;
         let velocity = vector(signals.velocity[0])?;
+        let names = [signals.position[0], signals.velocity[0], signals.acceleration[0]];
+        check_vectors(system, slave, &participant.label, names)?;
         let chaser = match signals.chaser {
             Some([r, v]) => Some([vector(r)?, vector(v)?]),
             None => None,
@@ -166,8 +241,7 @@ impl Covariance {
 
 /// Number of variables `name` and `name[...]`.
 fn elements(ports: &[Port], name: &str) -> usize {
-    let indices = ports.iter().filter_map(|p| p.name.strip_prefix(name));
-    indices.filter(|i| i.is_empty() || i.starts_with('[')).count()
+    ports.iter().filter(|p| is_element(&p.name, name)).count()
 }
 
 fn odd(label: &str, name: &str, elements: usize, expected: &'static str) -> StudyError {
@@ -252,6 +326,15 @@ impl EstimateReader {
         };
         let jerk_root = optional("q.s")?;
         let covariance = Covariance::choose(&mut body, ports, label)?;
+        let names = [signals.position[1], signals.velocity[1], signals.acceleration[1]];
+        check_vectors(system, slave, label, names)?;
+        for i in 0..9 {
+            for j in 0..9 {
+                let ([m, s], [n, t]) = (UNITS[i / 3], UNITS[j / 3]);
+                let element = format!("cov.p[{},{}]", i + 1, j + 1);
+                check_unit(system, slave, label, &element, [m + n, s + t])?;
+            }
+        }
         Ok(Self {
             count: head.integer("est.count").ok(),
             time: head.real("est.time").ok(),

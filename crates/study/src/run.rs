@@ -8,7 +8,7 @@ use cosim::{RunOptions, Scheme, SlaveId, StepContext, System, Value};
 use crate::error::{StudyError, chain};
 use crate::history::History;
 use crate::participant::Participant;
-use crate::readers::{EstimateReader, TruthReader};
+use crate::readers::{EstimateReader, TruthReader, units_unsaid};
 use crate::samples::{Estimate, TruthSample};
 use crate::spec::{SAME_TIME, Spec};
 use crate::stop::stop_asked;
@@ -178,7 +178,12 @@ pub fn rehearse(spec: &Spec) -> Result<Vec<String>, StudyError> {
         .into_iter()
         .filter(|u| seats.contains(&u.slave));
     let told = open.map(|u| format!("nothing feeds {}: {}; it keeps its start value", u.slave_name, u.input));
-    Ok(told.collect())
+    let unsaid = seats.iter().filter_map(|filter| {
+        let names = units_unsaid(&coupled.system, coupled.truth, *filter, spec.world.frame);
+        let label = coupled.system.name(*filter);
+        (!names.is_empty()).then(|| format!("{label} says no unit of {}: taken as SI", names.join(", ")))
+    });
+    Ok(told.chain(unsaid).collect())
 }
 
 /// Time of one `fmi2DoStep` of a filter that has no new sample: the cost of crossing the interface, s.
