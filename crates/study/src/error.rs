@@ -258,6 +258,14 @@ pub enum StudyError {
         /// What is wrong, and where.
         problem: String,
     },
+    /// A driver that pushes nothing.
+    #[error("driver '{label}' has no output of the name of an input of the world, of which there are: {inputs}")]
+    DrivesNothing {
+        /// The driver.
+        label: String,
+        /// Inputs of the world, without indices.
+        inputs: String,
+    },
     /// Nothing feeds the initial estimate of a filter.
     #[error("'{label}' needs its initial estimate, but the truth offers no '{input}'")]
     MissingInput {

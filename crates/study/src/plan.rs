@@ -73,6 +73,9 @@ pub struct Plan {
     /// Foreign filters, after those of fmu-nav.
     #[serde(rename = "nav")]
     pub foreign: Vec<ForeignFilter>,
+    /// Drivers: foreign FMUs that push the vehicles.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub drive: Vec<ForeignFilter>,
     /// Whether foreign filters may read `truth.*`: what does is a bound and no filter.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub allow_truth: bool,
@@ -203,6 +206,7 @@ impl Default for Plan {
             variations: Vec::new(),
             truth: None,
             foreign: Vec::new(),
+            drive: Vec::new(),
             allow_truth: false,
             mappings: Vec::new(),
             map_files: Vec::new(),
@@ -457,11 +461,13 @@ impl Plan {
             .truth
             .iter()
             .filter_map(|path| Some(format!("truth-{}", path.file_stem()?.to_string_lossy())));
+        let drivers = self.drive.iter().map(|driver| format!("drive-{}", driver.label));
         let step = self.step_s.map(|step| format!("step-{step}"));
         let duration = self.duration_s.map(|duration| format!("duration-{duration}"));
         let scheme = (self.scheme != Scheme::GaussSeidel).then(|| scheme_name(self.scheme).to_owned());
         set.chain(varied)
             .chain(truth)
+            .chain(drivers)
             .chain(step)
             .chain(duration)
             .chain(scheme)
@@ -557,6 +563,7 @@ mod tests {
             variations: vec!["fmu-nav.k=loguniform:0.1:10".parse().unwrap()],
             truth: Some("their.fmu".into()),
             foreign: vec!["other=b.fmu".parse().unwrap()],
+            drive: vec!["guide=g.fmu".parse().unwrap()],
             allow_truth: true,
             mappings: vec!["other.x=est.r_tc_n".parse().unwrap()],
             map_files: vec!["names.toml".into()],

@@ -19,7 +19,7 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
     end_when_asked()?;
     let plan = asked(args)?;
     let models = models(&plan, &args.study.build)?;
-    let foreign = plan.truth.is_some() || !plan.foreign.is_empty();
+    let foreign = plan.truth.is_some() || !plan.foreign.is_empty() || !plan.drive.is_empty();
     let isolate = plan.isolation.isolate.unwrap_or(foreign);
     let scratch = scratch()?;
     let trial = cast(&plan, &models, scratch.path())?;

@@ -139,11 +139,9 @@ pub(super) fn changed(plan: Plan, study: &StudyArgs) -> Result<Plan, HarnessErro
     let taken = |model: &str, variable: &str| set(model, variable) || varied(model, variable);
     let kept = plan.assignments.into_iter().filter(|a| !taken(&a.model, &a.variable));
     let spread = plan.variations.into_iter().filter(|v| !taken(&v.model, &v.variable));
-    let added = |own: Vec<ForeignFilter>| {
-        let kept = own
-            .into_iter()
-            .filter(|f| study.foreign.iter().all(|g| g.label != f.label));
-        kept.chain(study.foreign.iter().cloned()).collect()
+    let added = |own: Vec<ForeignFilter>, asked: &[ForeignFilter]| {
+        let kept = own.into_iter().filter(|f| asked.iter().all(|g| g.label != f.label));
+        kept.chain(asked.iter().cloned()).collect()
     };
     Ok(Plan {
         filters: filters.or(plan.filters),
@@ -153,7 +151,8 @@ pub(super) fn changed(plan: Plan, study: &StudyArgs) -> Result<Plan, HarnessErro
         assignments: kept.chain(study.assignments.iter().cloned()).collect(),
         variations: spread.chain(study.variations.iter().cloned()).collect(),
         truth: study.truth.clone().or(plan.truth),
-        foreign: added(plan.foreign),
+        foreign: added(plan.foreign, &study.foreign),
+        drive: added(plan.drive, &study.drivers),
         allow_truth: plan.allow_truth || study.allow_truth,
         mappings,
         map_files: Vec::new(),

@@ -96,6 +96,12 @@ pub enum Quirk {
     AsksForTruth,
     /// A truth that moves by its input `a_cmd_c_n[1]`, or a filter with an output of that name.
     Pushes,
+    /// A driver that pushes with 50 until a time at which it fails.
+    Drives {
+        until: f64,
+    },
+    /// A driver that pushes as far as a filter's first position says.
+    Guides,
     /// Offers a covariance of six states and does not say of how many.
     SixBySix,
     /// Offers a covariance without its last element.
@@ -112,6 +118,14 @@ struct Source {
 impl SlaveSource for Source {
     fn create(&self, name: &str) -> Result<Box<dyn Slave>, StudyError> {
         Ok(Box::new(Mock::new(name, self.truth, self.quirk)))
+    }
+}
+
+/// A driver.
+pub fn driver(label: &str, quirk: Quirk) -> Participant {
+    Participant {
+        model: label.to_owned(),
+        ..participant(label, false, quirk)
     }
 }
 
@@ -142,6 +156,8 @@ pub fn spec(truth: Quirk, filters: &[(&str, Quirk)]) -> Spec {
         step: 1.0,
         sample_period: 1.0,
         scheme: Scheme::GaussSeidel,
+        drivers: Vec::new(),
+        closed_loop: false,
         allow_truth: false,
     }
 }
@@ -169,6 +185,13 @@ impl Mock {
             booleans: Vec::new(),
             last: 0,
         };
+        if matches!(quirk, Quirk::Drives { .. } | Quirk::Guides) {
+            mock.port("a_cmd_c_n[1]", BaseType::Real, Causality::Output);
+            if quirk == Quirk::Guides {
+                mock.port("est.r_tc_n[1]", BaseType::Real, Causality::Input);
+            }
+            return mock;
+        }
         mock.port("study_seed", BaseType::Integer, Causality::Parameter);
         mock.port("run", BaseType::Integer, Causality::Parameter);
         let sensor = if truth { Causality::Output } else { Causality::Input };
@@ -398,7 +421,15 @@ impl Slave for Mock {
         {
             return Err(SlaveError::new("do_step", "out of cheese"));
         }
-        if self.truth {
+        if let Quirk::Drives { until } = self.quirk {
+            self.put("a_cmd_c_n[1]", 50.0);
+            if t + h > until {
+                return Err(SlaveError::new("do_step", "out of fuel"));
+            }
+        } else if self.quirk == Quirk::Guides {
+            let seen = self.at("est.r_tc_n[1]").map_or(0.0, |at| self.reals[at]);
+            self.put("a_cmd_c_n[1]", seen);
+        } else if self.truth {
             self.step_truth(t + h);
         } else {
             self.step_filter();
