@@ -330,6 +330,10 @@ pub struct IsolationArgs {
     /// Most memory of a worker, MiB [default: 2048]
     #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(64..=1 << 24))]
     pub memory_limit: Option<u64>,
+    /// Load a library into every worker before any FMU, for FMUs that expect it there; 'python' is that of the python3 on the
+    /// path, which filters made with PythonFMU need; repeatable
+    #[arg(long, value_name = "LIB", conflicts_with = "no_isolate")]
+    pub preload: Vec<PathBuf>,
 }
 
 impl IsolationArgs {
@@ -341,6 +345,7 @@ impl IsolationArgs {
             call_limit_s: self.call_limit.unwrap_or(plan.call_limit_s),
             run_limit_s: self.run_limit.unwrap_or(plan.run_limit_s),
             memory_limit_mib: self.memory_limit.unwrap_or(plan.memory_limit_mib),
+            preload: plan.preload.iter().chain(&self.preload).cloned().collect(),
         }
     }
 }

@@ -33,6 +33,14 @@ pub enum HarnessError {
         "no sensor ever sees the target: attitude, field_of_view_deg, max_range_m and period_s decide what is seen"
     )]
     SeesNothing,
+    /// A library that workers cannot load first.
+    #[error("--preload {}: {why}", library.display())]
+    Preload {
+        /// The library, as given.
+        library: PathBuf,
+        /// Why not.
+        why: String,
+    },
     /// A file that is not overwritten.
     #[error("{} exists already; name another, or move it away", path.display())]
     Exists {

@@ -258,6 +258,16 @@ pub enum StudyError {
         /// What is wrong, and where.
         problem: String,
     },
+    /// An FMU that expects Python in the program that loads it.
+    #[error(
+        "'{label}' expects Python in the program that loads it, as FMUs of PythonFMU do; give --preload python, or --preload with the path of a libpython3.x.so: {source}"
+    )]
+    ExpectsPython {
+        /// Participant.
+        label: String,
+        /// What the loader says.
+        source: Box<ImportError>,
+    },
     /// A driver that pushes nothing.
     #[error("driver '{label}' has no output of the name of an input of the world, of which there are: {inputs}")]
     DrivesNothing {

@@ -123,6 +123,10 @@ pub struct Isolation {
     pub run_limit_s: f64,
     /// Most memory of a worker, MiB.
     pub memory_limit_mib: u64,
+    /// Libraries that workers load before any FMU, for FMUs that expect them in the program; `python`: that of the `python3` on the
+    /// path.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub preload: Vec<PathBuf>,
 }
 
 impl Default for Isolation {
@@ -133,6 +137,7 @@ impl Default for Isolation {
             call_limit_s: limits.call_s,
             run_limit_s: limits.run_s,
             memory_limit_mib: limits.memory >> 20,
+            preload: Vec::new(),
         }
     }
 }

@@ -20,7 +20,10 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
     let plan = asked(args)?;
     let models = models(&plan, &args.study.build)?;
     let foreign = plan.truth.is_some() || !plan.foreign.is_empty() || !plan.drive.is_empty();
-    let isolate = plan.isolation.isolate.unwrap_or(foreign);
+    let isolate = plan
+        .isolation
+        .isolate
+        .unwrap_or(foreign || !plan.isolation.preload.is_empty());
     let scratch = scratch()?;
     let trial = cast(&plan, &models, scratch.path())?;
     let mut workers = Vec::new();
