@@ -6,8 +6,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-case "$(uname -s)" in
-    Darwin) binary=binaries/darwin64/direct_inversion.dylib ;;
+case "$(uname -s)-$(uname -m)" in
+    Darwin-*) binary=binaries/darwin64/direct_inversion.dylib ;;
+    Linux-aarch64) binary=binaries/aarch64-linux/direct_inversion.so ;;
     *) binary=binaries/linux64/direct_inversion.so ;;
 esac
 mkdir -p "$work/$(dirname "$binary")"
