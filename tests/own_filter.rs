@@ -191,25 +191,81 @@ fn python_fmu() -> Option<PathBuf> {
     Some(program)
 }
 
-#[test]
-fn a_filter_in_python_does_what_the_one_in_c_does() {
-    let Some(build) = python_fmu().filter(|_| has_tools("python")) else {
-        skipped("python", "python3-venv");
-        return;
+/// Packs a source by PythonFMU; `None` where there is no Python, or none whose library can be loaded.
+fn pack_python(test: &str, source: &str, folder: &Path) -> Option<()> {
+    let Some(build) = python_fmu() else {
+        skipped(test, "python3-venv");
+        return None;
     };
-    let folder = tempfile::tempdir().unwrap();
     let output = Command::new(build)
-        .args([
-            "build",
-            "--file",
-            "examples/04_own_filter_in_python/direct_inversion.py",
-            "--dest",
-        ])
-        .arg(folder.path())
+        .args(["build", "--file", source, "--dest"])
+        .arg(folder)
         .current_dir(root())
         .output()
         .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    Some(())
+}
+
+/// Whether the `python3` on the path has a library that can be loaded.
+fn has_library(test: &str) -> bool {
+    let probe = "import sysconfig as s; exit(not s.get_config_var('Py_ENABLE_SHARED'))";
+    let shared = Command::new("python3").args(["-c", probe]).status().unwrap().success();
+    if !shared {
+        skipped(test, "libpython3-dev");
+    }
+    shared
+}
+
+#[test]
+fn guidance_on_a_filters_estimates_gives_each_filter_its_own_world() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = "examples/05_closed_loop/guidance.py";
+    if pack_python("closed loop", source, folder.path()).is_none() || !has_library("closed loop") {
+        return;
+    }
+    let guide = format!("guide={}", text(&folder.path().join("Guidance.fmu")));
+    let rows = |name: &str, filters: &str, driver: &[&str]| {
+        let out = folder.path().join(name);
+        let line = [
+            "compare",
+            "--filters",
+            filters,
+            "--runs",
+            "1",
+            "--duration",
+            "1500",
+            "--out",
+            text(&out),
+        ];
+        harness_ok(&[&line[..], driver].concat());
+        let rows = read_csv(&out.join("runs.csv"));
+        let snc = rows.into_iter().find(|row| row["filter"] == "snc").unwrap();
+        (snc["failed"].clone(), snc["pos_rmse_m"].clone(), out)
+    };
+    let driver = ["--drive", &guide, "--preload", "python"];
+    let both = rows("both", "snc,fixed_q", &driver);
+    let alone = rows("alone", "snc", &driver);
+    let undriven = rows("undriven", "snc", &[]);
+    assert_eq!(
+        (&both.0, &both.1),
+        (&"0".to_owned(), &alone.1),
+        "what another filter does is nothing to snc"
+    );
+    assert_ne!(both.1, undriven.1, "the guidance does something");
+    for file in ["manifest.json", "report.html"] {
+        let contents = std::fs::read_to_string(both.2.join(file)).unwrap();
+        assert!(contents.contains("paired by seed alone"), "{file}");
+    }
+}
+
+#[test]
+fn a_filter_in_python_does_what_the_one_in_c_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = "examples/04_own_filter_in_python/direct_inversion.py";
+    if !has_tools("python") || pack_python("python", source, folder.path()).is_none() {
+        return;
+    }
     let toy = folder.path().join("Toy.fmu");
     let mine = format!("mine={}", text(&toy));
     let line = [
@@ -227,9 +283,7 @@ fn a_filter_in_python_does_what_the_one_in_c_does() {
         refused.status.code() == Some(2) && told.contains("--preload python"),
         "{told}"
     );
-    let probe = "import sysconfig as s; exit(not s.get_config_var('Py_ENABLE_SHARED'))";
-    if !Command::new("python3").args(["-c", probe]).status().unwrap().success() {
-        skipped("python", "libpython3-dev");
+    if !has_library("python") {
         return;
     }
     let python = errors(&folder.path().join("python"), &toy, &["--preload", "python"]);

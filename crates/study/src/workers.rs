@@ -75,7 +75,11 @@ impl Workers {
         let mut told = Vec::new();
         for filter in 0..spec.filters.len() {
             match self.ask(&Request::Rehearse { filters: vec![filter] }) {
-                Ok(Message::Other(Answer::Rehearsed(Ok(open)))) => told.extend(open),
+                Ok(Message::Other(Answer::Rehearsed(Ok(open)))) => {
+                    // A driver takes part in the rehearsal of each filter.
+                    let new: Vec<String> = open.into_iter().filter(|text| !told.contains(text)).collect();
+                    told.extend(new);
+                }
                 Ok(Message::Other(Answer::Rehearsed(Err(why)))) => return Err(StudyError::Rehearsal { why }),
                 Ok(_) => return Err(out_of_turn()),
                 Err(Lost::Died { message, .. }) => told.push(format!("{}: {message}", spec.filters[filter].label)),
