@@ -191,11 +191,11 @@ fn python_fmu() -> Option<PathBuf> {
     Some(program)
 }
 
-/// Packs a source by PythonFMU; `None` where there is no Python, or none whose library can be loaded.
-fn pack_python(test: &str, source: &str, folder: &Path) -> Option<()> {
+/// Packs a source by PythonFMU; false, and said, where there is no Python.
+fn pack_python(test: &str, source: &str, folder: &Path) -> bool {
     let Some(build) = python_fmu() else {
         skipped(test, "python3-venv");
-        return None;
+        return false;
     };
     let output = Command::new(build)
         .args(["build", "--file", source, "--dest"])
@@ -204,7 +204,7 @@ fn pack_python(test: &str, source: &str, folder: &Path) -> Option<()> {
         .output()
         .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    Some(())
+    true
 }
 
 /// Whether the `python3` on the path has a library that can be loaded.
@@ -221,7 +221,7 @@ fn has_library(test: &str) -> bool {
 fn guidance_on_a_filters_estimates_gives_each_filter_its_own_world() {
     let folder = tempfile::tempdir().unwrap();
     let source = "examples/05_closed_loop/guidance.py";
-    if pack_python("closed loop", source, folder.path()).is_none() || !has_library("closed loop") {
+    if !pack_python("closed loop", source, folder.path()) || !has_library("closed loop") {
         return;
     }
     let guide = format!("guide={}", text(&folder.path().join("Guidance.fmu")));
@@ -263,7 +263,7 @@ fn guidance_on_a_filters_estimates_gives_each_filter_its_own_world() {
 fn a_filter_in_python_does_what_the_one_in_c_does() {
     let folder = tempfile::tempdir().unwrap();
     let source = "examples/04_own_filter_in_python/direct_inversion.py";
-    if !has_tools("python") || pack_python("python", source, folder.path()).is_none() {
+    if !has_tools("python") || !pack_python("python", source, folder.path()) {
         return;
     }
     let toy = folder.path().join("Toy.fmu");
