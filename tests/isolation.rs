@@ -167,3 +167,59 @@ fn isolated_or_not_our_filters_give_the_same_bytes() {
     harness_ok(&[&study[..], &["--isolate", "--out", text(&there)]].concat());
     assert!(results(&here) == results(&there), "bytes differ");
 }
+
+#[test]
+fn a_driver_pushes_the_chaser_and_its_death_fails_the_run_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(fmu) = nasty(folder.path()) else { return };
+    let driver = format!("push={}", text(&fmu));
+    let position = |name: &str, more: &[&str]| -> Vec<f64> {
+        let out = folder.path().join(name);
+        let line = ["replay", "--filters", "snc", "--out", text(&out)];
+        harness_ok(&[&line[..], more].concat());
+        let rows = read_csv(&out);
+        let row = rows
+            .iter()
+            .find(|row| row["t_s"].parse::<f64>().unwrap() >= 60.0)
+            .unwrap();
+        ["x", "y", "z"]
+            .map(|axis| row[&format!("truth_pos_{axis}_m")].parse().unwrap())
+            .to_vec()
+    };
+    let (left, pushed) = (position("left.csv", &[]), position("pushed.csv", &["--drive", &driver]));
+    for (left, pushed) in left.iter().zip(&pushed) {
+        // 1 m/s2 on the chaser for 60 s, and what the gradient of gravity does meanwhile: of the order of n^2 t^2, 0.5 %.
+        let expected = -0.5 * 60.0 * 60.0;
+        assert!(((pushed - left) / expected - 1.0).abs() < 1e-2, "{left} {pushed}");
+    }
+
+    let out = folder.path().join("dies");
+    let line = [
+        "compare",
+        "--filters",
+        "snc,fixed_q",
+        "--runs",
+        "2",
+        "--duration",
+        "300",
+        "--out",
+        text(&out),
+    ];
+    let dies = ["--drive", &driver, "--set", "push.deed=1"];
+    harness(&[&line[..], &dies].concat());
+    let failures = read_csv(&out.join("failures.csv"));
+    assert_eq!(failures.len(), 4, "{failures:?}");
+    for failure in &failures {
+        let message = &failure["message"];
+        assert!(
+            message.contains("signal 11") && message.contains("driver push"),
+            "{message}"
+        );
+        assert_eq!(failure["case"], "deed-1_drive-push_duration-300");
+    }
+    let manifest = std::fs::read_to_string(out.join("manifest.json")).unwrap();
+    assert!(
+        manifest.contains("driven by push; all filters share each world"),
+        "{manifest}"
+    );
+}

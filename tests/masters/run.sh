@@ -47,7 +47,7 @@ if [ -x "$python" ]; then
         program=$(cargo build --release --quiet --package trade-harness --message-format json \
             | "$python" -c 'import json, sys; print([a["executable"] for a in map(json.loads, sys.stdin) if a.get("executable")][-1])')
         study() {
-            LD_PRELOAD=$interpreter "$program" compare "${ours[@]}" --quiet --runs 2 --filters fixed_q \
+            "$program" compare "${ours[@]}" --preload "$interpreter" --quiet --runs 2 --filters fixed_q \
                 --nav toy="$work/Toy.fmu" "$@"
         }
         study --set fmu-truth.lidar.sigma_range=0 --set fmu-truth.lidar.sigma_angle=0 --out "$work/toy" >/dev/null

@@ -134,12 +134,19 @@ pub struct StudyArgs {
     /// Add a foreign filter FMU under a label; repeatable
     #[arg(long = "nav", value_name = "LABEL=PATH")]
     pub foreign: Vec<ForeignFilter>,
+    /// Add a driver FMU under a label: guidance or life support that pushes the vehicles through a_cmd_c_n and a_dist_t_n. One that
+    /// reads est.* gives every filter a world of its own, seeded alike; repeatable
+    #[arg(long = "drive", value_name = "LABEL=PATH")]
+    pub drivers: Vec<ForeignFilter>,
     /// Let foreign filters read truth.*, as a bound rather than a filter
     #[arg(long)]
     pub allow_truth: bool,
     /// Tell what a variable of a foreign FMU is called here; repeatable
     #[arg(long = "map", value_name = "LABEL.THEIR_NAME=OUR_NAME")]
     pub mappings: Vec<Mapping>,
+    /// Read more of these from a TOML file: a table for each LABEL, of THEIR_NAME = "OUR_NAME"; repeatable
+    #[arg(long = "map-file", value_name = "FILE")]
+    pub map_files: Vec<PathBuf>,
     /// Read tuned sets that 'tune' has written; they go by NAME@tuned
     #[arg(long, value_name = "FILE")]
     pub tuned: Option<PathBuf>,
@@ -373,6 +380,10 @@ pub struct IsolationArgs {
     /// Most memory of a worker, MiB [default: 2048]
     #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(64..=1 << 24))]
     pub memory_limit: Option<u64>,
+    /// Load a library into every worker before any FMU, for FMUs that expect it there; 'python' is that of the python3 on the
+    /// path, which filters made with PythonFMU need; repeatable
+    #[arg(long, value_name = "LIB", conflicts_with = "no_isolate")]
+    pub preload: Vec<PathBuf>,
 }
 
 impl IsolationArgs {
@@ -384,6 +395,7 @@ impl IsolationArgs {
             call_limit_s: self.call_limit.unwrap_or(plan.call_limit_s),
             run_limit_s: self.run_limit.unwrap_or(plan.run_limit_s),
             memory_limit_mib: self.memory_limit.unwrap_or(plan.memory_limit_mib),
+            preload: plan.preload.iter().chain(&self.preload).cloned().collect(),
         }
     }
 }

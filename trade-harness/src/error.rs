@@ -45,6 +45,14 @@ pub enum HarnessError {
         /// All names.
         known: String,
     },
+    /// A library that workers cannot load first.
+    #[error("--preload {}: {why}", library.display())]
+    Preload {
+        /// The library, as given.
+        library: PathBuf,
+        /// Why not.
+        why: String,
+    },
     /// A file that is not overwritten.
     #[error("{} exists already; name another, or move it away", path.display())]
     Exists {

@@ -217,7 +217,8 @@ pub fn identity(studies: &[Study], models: &Models) -> Result<String, HarnessErr
     });
     let studies = studies.iter().map(|study| {
         let spec = &study.spec;
-        let parts = std::iter::once(&spec.truth).chain(&spec.filters).map(|part| {
+        let parts = std::iter::once(&spec.truth).chain(&spec.filters).chain(&spec.drivers);
+        let parts = parts.map(|part| {
             // Where the mission's file stands is no matter; what stands in it is told.
             PartIdentity {
                 label: &part.label,

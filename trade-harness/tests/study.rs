@@ -4,7 +4,7 @@
 mod mocks;
 
 use cosim::Scheme;
-use mocks::{Quirk, SIGMA, acceleration, noise, spec, two_rates};
+use mocks::{Quirk, SIGMA, acceleration, driver, noise, spec, two_rates};
 use study::{Distribution, FilterResult, Spec, Study, StudyError, Summary, Varied, rehearse};
 use trade_harness::report::epochs;
 use trade_harness::report::runs::{Named, render_failures, render_paired, render_runs};
@@ -420,4 +420,123 @@ fn a_filter_that_asks_for_the_truth_is_refused() {
         ..spec(Quirk::None, &[("peeping", Quirk::AsksForTruth)])
     };
     assert_eq!(study(bound, 1).1[0].failed(), 0);
+}
+
+#[test]
+fn a_bound_reads_the_truth() {
+    let bound = Spec {
+        allow_truth: true,
+        ..spec(Quirk::None, &[("peeping", Quirk::AsksForTruth)])
+    };
+    let (_, filters) = study(bound, 1);
+    // Unfed, its first position would be 100 m off.
+    near(row(&filters[0]).position.rmse, rms_norm(0..RUNS));
+}
+
+#[test]
+fn outputs_of_filters_reach_neither_the_world_nor_each_other() {
+    let two = [("one", Quirk::Pushes), ("other", Quirk::Pushes)];
+    let (pushed_spec, pushed) = study(spec(Quirk::Pushes, &two), 1);
+    let plain = two.map(|(label, _)| (label, Quirk::None));
+    let (plain_spec, left_alone) = study(spec(Quirk::None, &plain), 1);
+    assert_eq!(files(&pushed_spec, &pushed), files(&plain_spec, &left_alone));
+}
+
+#[test]
+fn a_covariance_of_six_states_counts_as_six() {
+    let (_, filters) = study(spec(Quirk::None, &[("six", Quirk::SixBySix)]), 1);
+    let six = row(&filters[0]);
+    assert_eq!((six.failed, six.nees_dimension), (0, Some(6)));
+    near(six.nees.mean, 2.0 * rms_norm(0..RUNS).powi(2) / (SIGMA * SIGMA) / 6.0);
+}
+
+#[test]
+fn partial_shapes_are_refused_by_name_with_what_is_expected() {
+    for (quirk, parts) in [
+        (
+            Quirk::PartialCovariance,
+            ["'odd'", "'cov.p'", "80 variables", "6x6 or 9x9"],
+        ),
+        (
+            Quirk::PartialAcceleration,
+            ["'odd'", "'est.a_t_n'", "2 variables", "three Reals"],
+        ),
+    ] {
+        let text = rehearse(&spec(Quirk::None, &[("odd", quirk)])).unwrap_err().to_string();
+        for part in parts {
+            assert!(text.contains(part), "{text}");
+        }
+    }
+}
+
+/// A study with a driver.
+fn driven(filters: &[(&str, Quirk)], by: Quirk) -> Spec {
+    Spec {
+        drivers: vec![driver("pusher", by)],
+        closed_loop: by == Quirk::Guides,
+        ..spec(Quirk::Pushes, filters)
+    }
+}
+
+/// RMS of the error norm whose first component is shifted by what `first` says of run and sample.
+fn rms_shifted(first: impl Fn(i32, i32) -> f64) -> f64 {
+    let mut squares = Vec::new();
+    for run in 0..RUNS {
+        for count in 11..=40 {
+            let others = noise(run, count, 1).powi(2) + noise(run, count, 2).powi(2);
+            squares.push((noise(run, count, 0) + first(run, count)).powi(2) + others);
+        }
+    }
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}
+
+#[test]
+fn a_driver_moves_the_world_of_all_filters() {
+    let two = [("one", Quirk::None), ("other", Quirk::Bare)];
+    let (_, filters) = study(driven(&two, Quirk::Drives { until: 1e9 }), 2);
+    // The target is 50 m further away than the filters believe.
+    for filter in &filters {
+        near(row(filter).position.rmse, rms_shifted(|_, _| -50.0));
+    }
+}
+
+#[test]
+fn a_driver_that_reads_a_filter_gives_each_its_own_world() {
+    let lost = Quirk::Lost { run: 3 };
+    let (both_spec, both) = study(driven(&[("one", Quirk::None), ("lost", lost)], Quirk::Guides), 2);
+    let (alone_spec, alone) = study(driven(&[("one", Quirk::None)], Quirk::Guides), 1);
+    // What the driver read at the sample before is what the target is away.
+    near(
+        row(&both[0]).position.rmse,
+        rms_shifted(|run, count| -100.0 - noise(run, count - 1, 0)),
+    );
+    assert_eq!(files(&both_spec, &both[..1]), files(&alone_spec, &alone));
+}
+
+#[test]
+fn a_driver_that_fails_fails_the_run_by_name() {
+    let two = [("one", Quirk::None), ("other", Quirk::Bare)];
+    let (_, filters) = study(driven(&two, Quirk::Drives { until: 20.0 }), 2);
+    for filter in &filters {
+        assert_eq!(filter.failed(), RUNS as usize);
+        let message = &filter.runs[0].failure.as_ref().unwrap().message;
+        assert!(
+            message.contains("pusher") && message.contains("out of fuel"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn drivers_without_a_world_to_push_and_two_of_one_input_are_refused() {
+    let mut nothing = driven(&[("one", Quirk::None)], Quirk::Guides);
+    nothing.truth = spec(Quirk::None, &[]).truth;
+    let error = rehearse(&nothing).unwrap_err();
+    assert!(matches!(error, StudyError::DrivesNothing { .. }), "{error}");
+    let mut twice = driven(&[("one", Quirk::None)], Quirk::Guides);
+    twice.drivers.push(driver("second", Quirk::Guides));
+    let text = rehearse(&twice).unwrap_err().to_string();
+    for part in ["a_cmd_c_n[1]", "pusher", "second"] {
+        assert!(text.contains(part), "{text}");
+    }
 }

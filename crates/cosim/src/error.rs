@@ -128,6 +128,21 @@ pub enum CosimError {
         input_type: BaseType,
     },
 
+    /// An output and an input of units that do not convert into each other were to be connected.
+    #[error(
+        "cannot connect {source_name} in {source_unit} to {input} in {input_unit}: these units measure different things"
+    )]
+    UnitMismatch {
+        /// Slave and name of the output.
+        source_name: String,
+        /// Its unit.
+        source_unit: String,
+        /// Slave and name of the input.
+        input: String,
+        /// Its unit.
+        input_unit: String,
+    },
+
     /// A second output was to feed one input.
     #[error("input {input} is fed by both {first} and {second}: keep one of them")]
     SeveralSources {

@@ -2,6 +2,7 @@
 
 use fmi2_import::BaseType;
 
+use crate::units::Conversion;
 use crate::{Slave, SlaveError};
 
 /// Variables of one type, and room for their values in the same order.
@@ -100,6 +101,8 @@ pub(crate) struct Routes {
     integers: Vec<Route>,
     booleans: Vec<Route>,
     strings: Vec<Route>,
+    /// Places among the Reals whose values come in another unit.
+    conversions: Vec<(usize, Conversion)>,
 }
 
 impl Routes {
@@ -114,10 +117,18 @@ impl Routes {
         }
     }
 
+    /// Converts the Reals that arrive at a place.
+    pub(crate) fn convert(&mut self, to: usize, conversion: Conversion) {
+        self.conversions.push((to, conversion));
+    }
+
     /// Copies values from the outputs of all slaves, by their position, into `inputs`.
     pub(crate) fn gather(&self, outputs: &[Bundle], inputs: &mut Bundle) {
         for r in &self.reals {
             inputs.reals.values[r.to] = outputs[r.source].reals.values[r.from];
+        }
+        for (to, conversion) in &self.conversions {
+            conversion.apply(&mut inputs.reals.values[*to]);
         }
         for r in &self.integers {
             inputs.integers.values[r.to] = outputs[r.source].integers.values[r.from];

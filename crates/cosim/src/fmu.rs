@@ -1,6 +1,9 @@
 //! An FMU as a slave.
 
-use fmi2_import::{Experiment, Instance};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use fmi2_import::{Experiment, Instance, Variable};
 
 use crate::{Port, Slave, SlaveError};
 
@@ -30,11 +33,17 @@ impl Slave for FmuSlave {
     }
 
     fn ports(&self) -> Vec<Port> {
-        let variables = &self.instance.description().variables;
-        variables
+        let description = self.instance.description();
+        let units: HashMap<_, _> = description
+            .units
             .iter()
-            .map(|v| Port::new(&v.name, v.value_reference, v.base_type(), v.causality))
-            .collect()
+            .map(|unit| (unit.name.as_str(), Arc::new(unit.clone())))
+            .collect();
+        let port = |v: &Variable| {
+            let unit = v.unit().and_then(|name| units.get(name).cloned());
+            Port::new(&v.name, v.value_reference, v.base_type(), v.causality).with_unit(unit)
+        };
+        description.variables.iter().map(port).collect()
     }
 
     fn setup(&mut self, experiment: &Experiment) -> Result<(), SlaveError> {

@@ -12,9 +12,10 @@ mod master;
 mod probe;
 mod slave;
 mod system;
+mod units;
 
 pub use error::{CosimError, SlaveError};
-pub use fmi2_import::{BaseType, Causality, Experiment, Value};
+pub use fmi2_import::{BaseType, BaseUnit, Causality, Experiment, Unit, Value};
 pub use fmu::FmuSlave;
 pub use master::{Isolated, OnSlaveError, RunOptions, RunReport, Scheme, SlaveTiming, StepContext};
 pub use probe::{Handle, Probe, Readable, Sample, Values};

@@ -9,6 +9,7 @@ use fmi2_import::{Experiment, Value};
 
 use crate::exchange::{Bundle, Routes};
 use crate::system::{Member, PortAt};
+use crate::units::{Relation, relation};
 use crate::{CosimError, Port, Sample, Slave, SlaveError, SlaveId, System};
 
 /// Order of exchange and stepping within one communication step.
@@ -174,7 +175,10 @@ impl StepContext<'_> {
         let result = timed(self.run.options.timing, &mut self.run.timings[i].get, || {
             sample.bundle.get(member.slave.as_mut())
         });
-        let Err(error) = result else { return Ok(()) };
+        let Err(error) = result else {
+            sample.convert();
+            return Ok(());
+        };
         let error = CosimError::Slave {
             slave: member.name.clone(),
             time: self.run.time,
@@ -289,6 +293,9 @@ impl Run {
                 .or_insert_with(|| outputs[from.0].push(output.kind, output.reference));
             let end = inputs[to.0].push(input.kind, input.reference);
             routes[to.0].push(output.kind, from.0, start, end);
+            if let Relation::Same(Some(conversion)) = relation(output, input) {
+                routes[to.0].convert(end, conversion);
+            }
         }
         Self {
             options,

@@ -6,6 +6,7 @@ use std::marker::PhantomData;
 use fmi2_import::BaseType;
 
 use crate::exchange::Bundle;
+use crate::units::{Conversion, to_si};
 use crate::{CosimError, SlaveId, System};
 
 /// Chooses variables of one slave; made by [`System::probe`].
@@ -32,6 +33,7 @@ pub struct Probe<'a> {
     system: &'a System,
     slave: SlaveId,
     bundle: Bundle,
+    conversions: Vec<(usize, Conversion)>,
 }
 
 /// Room for the values of the variables that a [`Probe`] has chosen, filled by [`crate::StepContext::read`] with one call
@@ -40,6 +42,8 @@ pub struct Probe<'a> {
 pub struct Sample {
     pub(crate) slave: SlaveId,
     pub(crate) bundle: Bundle,
+    /// Places among the Reals whose values are not in SI units.
+    conversions: Vec<(usize, Conversion)>,
 }
 
 /// What was chosen, by its type: `f64`, `i32`, `bool`, `String`, `[f64; N]` or `[[f64; C]; R]`.
@@ -76,6 +80,7 @@ impl System {
             system: self,
             slave,
             bundle: Bundle::default(),
+            conversions: Vec::new(),
         })
     }
 }
@@ -147,6 +152,7 @@ impl Probe<'_> {
         Sample {
             slave: self.slave,
             bundle: self.bundle,
+            conversions: self.conversions,
         }
     }
 
@@ -165,22 +171,35 @@ impl Probe<'_> {
             }
             ports.push(port);
         }
-        let places = ports.iter().map(|p| self.bundle.push(p.kind, p.reference));
+        let mut first = None;
+        for port in ports {
+            let place = self.bundle.push(port.kind, port.reference);
+            first.get_or_insert(place);
+            self.conversions
+                .extend(to_si(port).map(|conversion| (place, conversion)));
+        }
         Ok(Handle {
-            at: places.min().unwrap_or_default(),
+            at: first.unwrap_or_default(),
             of: PhantomData,
         })
     }
 }
 
 impl Sample {
+    /// Turns the Reals just read into SI units.
+    pub(crate) fn convert(&mut self) {
+        for (place, conversion) in &self.conversions {
+            conversion.apply(&mut self.bundle.reals.values[*place]);
+        }
+    }
+
     /// The slave it is read from.
     #[must_use]
     pub fn slave(&self) -> SlaveId {
         self.slave
     }
 
-    /// The value as last read; Reals are in the units of their variables.
+    /// The value as last read; Reals are in SI units where their variables say in which unit they are, else as they come.
     #[must_use]
     pub fn get<T: Readable>(&self, handle: Handle<T>) -> T {
         T::read(Values(&self.bundle), handle.at)

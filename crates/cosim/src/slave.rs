@@ -1,6 +1,8 @@
 //! What the master needs a slave to do.
 
-use fmi2_import::{BaseType, Causality, Experiment};
+use std::sync::Arc;
+
+use fmi2_import::{BaseType, Causality, Experiment, Unit};
 
 use crate::SlaveError;
 
@@ -17,7 +19,7 @@ impl SlaveId {
 }
 
 /// A variable that can be wired, set or read.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Port {
     /// Name, unique within the slave.
     pub name: String,
@@ -27,10 +29,12 @@ pub struct Port {
     pub kind: BaseType,
     /// Role.
     pub causality: Causality,
+    /// Unit of a Real's values, if it is known.
+    pub unit: Option<Arc<Unit>>,
 }
 
 impl Port {
-    /// A port from its parts.
+    /// A port without a unit, from its parts.
     #[must_use]
     pub fn new(name: impl Into<String>, reference: u32, kind: BaseType, causality: Causality) -> Self {
         Self {
@@ -38,7 +42,15 @@ impl Port {
             reference,
             kind,
             causality,
+            unit: None,
         }
+    }
+
+    /// The same with a unit.
+    #[must_use]
+    pub fn with_unit(mut self, unit: Option<Arc<Unit>>) -> Self {
+        self.unit = unit;
+        self
     }
 }
 

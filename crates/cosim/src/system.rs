@@ -5,6 +5,7 @@ use std::fmt;
 
 use fmi2_import::{Causality, Value, suggest};
 
+use crate::units::{Relation, relation, unit_name};
 use crate::{CosimError, Port, Slave, SlaveId};
 
 /// An input that nothing feeds; it keeps its start value.
@@ -123,7 +124,7 @@ impl System {
     /// * returns: the number of connections made.
     ///
     /// # Errors
-    /// [`CosimError::SeveralSources`] or [`CosimError::TypeMismatch`]; then nothing is connected.
+    /// [`CosimError::SeveralSources`], [`CosimError::TypeMismatch`] or [`CosimError::UnitMismatch`]; then nothing is connected.
     pub fn connect_by_name(&mut self) -> Result<usize, CosimError> {
         let mut outputs: HashMap<&str, Vec<PortAt>> = HashMap::new();
         for (at, port) in self.ports_of(Causality::Output) {
@@ -152,7 +153,7 @@ impl System {
     /// * returns: the number of connections made.
     ///
     /// # Errors
-    /// [`CosimError::TypeMismatch`]; then nothing is connected.
+    /// [`CosimError::TypeMismatch`] or [`CosimError::UnitMismatch`]; then nothing is connected.
     pub fn connect_by_name_from(&mut self, source: SlaveId, target: SlaveId) -> Result<usize, CosimError> {
         let outputs: HashMap<&str, PortAt> = self
             .ports_of(Causality::Output)
@@ -178,7 +179,7 @@ impl System {
     ///
     /// # Errors
     /// [`CosimError::UnknownSlave`], [`CosimError::UnknownVariable`], [`CosimError::WrongCausality`],
-    /// [`CosimError::TypeMismatch`] or [`CosimError::SeveralSources`].
+    /// [`CosimError::TypeMismatch`], [`CosimError::UnitMismatch`] or [`CosimError::SeveralSources`].
     pub fn connect(&mut self, source: SlaveId, output: &str, target: SlaveId, input: &str) -> Result<(), CosimError> {
         let from = self.locate(source, output)?;
         let to = self.locate(target, input)?;
@@ -206,6 +207,15 @@ impl System {
             .collect()
     }
 
+    /// Inputs of a slave that are fed values as they come, since their unit or that of what feeds them is not said.
+    #[must_use]
+    pub fn inputs_of_unknown_unit(&self, slave: SlaveId) -> Vec<&str> {
+        let own = self.connections.iter().filter(|(_, to)| to.0 == slave.0);
+        own.filter(|(from, to)| relation(self.port_at(*from), self.port_at(*to)) == Relation::Unknown)
+            .map(|(_, to)| self.port_at(*to).name.as_str())
+            .collect()
+    }
+
     /// Gives a parameter or input a value to start from. It is kept and set in each run between setup and
     /// initialization, in the order of these calls; a second value for one variable replaces the first.
     ///
@@ -230,6 +240,12 @@ impl System {
             None => member.starts.push((at, value)),
         }
         Ok(())
+    }
+
+    /// Every port of a slave; none for a slave of another system.
+    #[must_use]
+    pub fn ports(&self, slave: SlaveId) -> &[Port] {
+        self.members.get(slave.0).map_or(&[], |m| m.ports.as_slice())
     }
 
     /// The port of this name, if the slave has one.
@@ -337,13 +353,26 @@ impl System {
     fn check_types(&self, from: PortAt, to: PortAt) -> Result<(), CosimError> {
         let (source_type, input_type) = (self.port_at(from).kind, self.port_at(to).kind);
         if source_type == input_type {
-            return Ok(());
+            return self.check_units(from, to);
         }
         Err(CosimError::TypeMismatch {
             source_name: self.full_name(from),
             source_type,
             input: self.full_name(to),
             input_type,
+        })
+    }
+
+    fn check_units(&self, from: PortAt, to: PortAt) -> Result<(), CosimError> {
+        let (output, input) = (self.port_at(from), self.port_at(to));
+        if relation(output, input) != Relation::Different {
+            return Ok(());
+        }
+        Err(CosimError::UnitMismatch {
+            source_name: self.full_name(from),
+            source_unit: unit_name(output.unit.as_ref()),
+            input: self.full_name(to),
+            input_unit: unit_name(input.unit.as_ref()),
         })
     }
 

@@ -7,7 +7,7 @@ use interface::Sensor;
 
 use crate::arguments::{Assignment, FilterChoice};
 use crate::error::StudyError;
-use crate::models::{Models, NAV, OwnFmus, TRUTH};
+use crate::models::{Model, Models, NAV, OwnFmus, TRUTH};
 use crate::participant::Participant;
 use crate::plan::{ALL, Plan};
 use crate::spec::Spec;
@@ -16,6 +16,20 @@ use crate::study::Study;
 use crate::tuned::TunedSet;
 use crate::variation::{Variation, Varied};
 use crate::world::World;
+
+/// What a reader of the results must know of the drivers.
+fn driven(drivers: &[Participant], closed_loop: bool) -> Option<String> {
+    let labels: Vec<&str> = drivers.iter().map(|driver| driver.label.as_str()).collect();
+    let labels = labels.join(", ");
+    match (drivers.is_empty(), closed_loop) {
+        (true, _) => None,
+        (false, false) => Some(format!("driven by {labels}; all filters share each world")),
+        (false, true) => Some(format!(
+            "driven by {labels} on a filter's estimate: every filter flies in a world of its own, so that differences between \
+             filters are paired by seed alone"
+        )),
+    }
+}
 
 impl Models {
     /// Opens the FMUs that a plan names.
@@ -30,6 +44,7 @@ impl Models {
             truth.unwrap_or(TRUTH.as_ref()),
             own.nav.as_deref(),
             &plan.foreign,
+            &plan.drive,
             &plan.mappings,
         )
     }
@@ -153,7 +168,10 @@ impl Models {
         let choices = &self.choices(plan, world);
         let assignments: Vec<Assignment> = plan.in_fmus().cloned().collect();
         let (mut truth, mut filters) = self.cast(world, choices, &plan.tuned, &assignments)?;
-        self.vary(&mut truth, &mut filters, &plan.variations, &assignments)?;
+        let mut drivers = self.drivers(world, &filters, &assignments)?;
+        let parts = std::iter::once(&mut truth).chain(&mut filters).chain(&mut drivers);
+        self.vary(parts, &plan.variations, &assignments)?;
+        let closed_loop = self.drivers.iter().any(Model::reads_a_filter);
         let suggested = self.truth.description().default_experiment.step_size;
         // A foreign truth may keep its sample period to itself; then it is taken to sample at each step.
         let sample_period = self
@@ -163,13 +181,20 @@ impl Models {
             .unwrap_or(world.sample_period_s);
         let world = World {
             duration_s: plan.duration_s.unwrap_or(world.duration_s),
-            notes: [world.notes.clone(), self.notes(plan, world)].concat(),
+            notes: [
+                world.notes.clone(),
+                driven(&drivers, closed_loop).into_iter().collect(),
+                self.notes(plan, world),
+            ]
+            .concat(),
             ..world.clone()
         };
         Ok(Spec {
             world,
             truth,
             filters,
+            drivers,
+            closed_loop,
             seed: plan.seed,
             step: plan.step_s.unwrap_or(sample_period),
             sample_period,
@@ -250,6 +275,30 @@ impl Models {
         Ok((truth, filters))
     }
 
+    /// The drivers of a run, beside these filters.
+    ///
+    /// # Errors
+    /// What cannot be set or does not exist; [`StudyError::LabelTwice`].
+    fn drivers(
+        &self,
+        world: &World,
+        filters: &[Participant],
+        assignments: &[Assignment],
+    ) -> Result<Vec<Participant>, StudyError> {
+        let mut labels: BTreeSet<&str> = filters.iter().map(|filter| filter.label.as_str()).collect();
+        labels.extend([TRUTH, NAV]);
+        let drivers = self.drivers.iter().map(|model| {
+            if !labels.insert(&model.name) {
+                return Err(StudyError::LabelTwice {
+                    label: model.name.clone(),
+                });
+            }
+            let starts = StartValues::new(model).world(world)?.assign(assignments)?;
+            Ok(starts.named(&model.name))
+        });
+        drivers.collect()
+    }
+
     /// Time between the truth's samples, s, if it has a parameter of that name; a value that is not positive stands for
     /// the world's own.
     pub fn sample_period(&self, truth: &Participant, world: &World) -> Option<f64> {
@@ -269,13 +318,13 @@ impl Models {
     ///
     /// # Errors
     /// What does not exist, is no Real parameter, cannot take an end of its range, or stands twice.
-    pub fn vary(
+    pub fn vary<'a>(
         &self,
-        truth: &mut Participant,
-        filters: &mut [Participant],
+        parts: impl IntoIterator<Item = &'a mut Participant>,
         variations: &[Variation],
         assignments: &[Assignment],
     ) -> Result<(), StudyError> {
+        let mut parts: Vec<&mut Participant> = parts.into_iter().collect();
         for (draw, variation) in variations.iter().enumerate() {
             let Variation {
                 model: name,
@@ -297,8 +346,7 @@ impl Models {
                 distribution: distribution.clone(),
                 draw,
             };
-            let parts = std::iter::once(&mut *truth).chain(filters.iter_mut());
-            for part in parts.filter(|p| p.model == *name) {
+            for part in parts.iter_mut().filter(|p| p.model == *name) {
                 part.starts.retain(|(name, _)| *name != varied.name);
                 part.record.retain(|(name, _)| name != variable);
                 part.record.push((variable.clone(), distribution.to_string()));

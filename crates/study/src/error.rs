@@ -226,6 +226,56 @@ pub enum StudyError {
         /// The input.
         input: String,
     },
+    /// A vector or matrix of which a filter offers another shape than can be read.
+    #[error("'{label}' offers '{name}' as {found}; expected are {expected}, or nothing of that name")]
+    Shape {
+        /// Participant.
+        label: String,
+        /// Name of the contract.
+        name: String,
+        /// What it offers.
+        found: String,
+        /// What can be read.
+        expected: &'static str,
+    },
+    /// A variable whose unit measures something else than its name says.
+    #[error("'{label}' offers '{name}' in '{found}', which cannot be converted to {expected}")]
+    Unit {
+        /// Participant.
+        label: String,
+        /// Name of the contract.
+        name: String,
+        /// Its unit.
+        found: String,
+        /// Unit of the contract.
+        expected: String,
+    },
+    /// A file of mappings that is none.
+    #[error("{}: {problem}", path.display())]
+    Mappings {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and where.
+        problem: String,
+    },
+    /// An FMU that expects Python in the program that loads it.
+    #[error(
+        "'{label}' expects Python in the program that loads it, as FMUs of PythonFMU do; give --preload python, or --preload with the path of a libpython3.x.so: {source}"
+    )]
+    ExpectsPython {
+        /// Participant.
+        label: String,
+        /// What the loader says.
+        source: Box<ImportError>,
+    },
+    /// A driver that pushes nothing.
+    #[error("driver '{label}' has no output of the name of an input of the world, of which there are: {inputs}")]
+    DrivesNothing {
+        /// The driver.
+        label: String,
+        /// Inputs of the world, without indices.
+        inputs: String,
+    },
     /// Nothing feeds the initial estimate of a filter.
     #[error("'{label}' needs its initial estimate, but the truth offers no '{input}'")]
     MissingInput {

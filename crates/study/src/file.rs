@@ -79,8 +79,13 @@ impl Plan {
             .missions
             .iter_mut()
             .chain(&mut self.truth)
+            .chain(&mut self.map_files)
             .chain(&mut self.tuned_files);
-        let foreign = self.foreign.iter_mut().map(|filter| &mut filter.path);
+        let foreign = self
+            .foreign
+            .iter_mut()
+            .chain(&mut self.drive)
+            .map(|filter| &mut filter.path);
         files
             .chain(foreign)
             .chain(&mut self.output.folder)

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fmi2_import::{Fmu, ModelDescription};
+use fmi2_import::{Causality, Fmu, ModelDescription};
 use interface::annotation::{self, Filters};
 
 use crate::arguments::{FilterChoice, ForeignFilter, Mapping, PAPER};
@@ -15,6 +15,9 @@ use crate::samples::StatusItems;
 pub const TRUTH: &str = "fmu-truth";
 /// Name under which assignments address the navigation FMU.
 pub const NAV: &str = "fmu-nav";
+
+/// How the outputs of a filter begin that a driver may read.
+const OF_FILTERS: &str = "est.";
 
 /// An opened FMU and its name in the study.
 #[derive(Clone)]
@@ -65,6 +68,16 @@ impl Model {
         contract_name(&self.aliases, own)
     }
 
+    /// Whether it has an input that a filter feeds.
+    pub(crate) fn reads_a_filter(&self) -> bool {
+        let mut inputs = self
+            .description()
+            .variables
+            .iter()
+            .filter(|v| v.causality == Causality::Input);
+        inputs.any(|v| self.contract_name(&v.name).starts_with(OF_FILTERS))
+    }
+
     /// What the numbers of its `status` mean: the items of the enumeration, or a plain Integer's order.
     pub(crate) fn statuses(&self) -> StatusItems {
         let variables = &self.description().variables;
@@ -111,6 +124,8 @@ pub struct Models {
     pub nav: Option<Model>,
     /// Filters of others, in the order given.
     pub foreign: Vec<Model>,
+    /// Drivers, in the order given.
+    pub drivers: Vec<Model>,
 }
 
 impl Models {
@@ -122,15 +137,18 @@ impl Models {
         truth: &Path,
         nav: Option<&Path>,
         foreign: &[ForeignFilter],
+        drivers: &[ForeignFilter],
         mappings: &[Mapping],
     ) -> Result<Self, StudyError> {
+        let others = |all: &[ForeignFilter]| {
+            let opened = all.iter().map(|f| Model::open(&f.label, &f.path, mappings));
+            opened.collect::<Result<Vec<_>, _>>()
+        };
         let models = Self {
             truth: Model::open(TRUTH, truth, mappings)?,
             nav: nav.map(|path| Model::open(NAV, path, mappings)).transpose()?,
-            foreign: foreign
-                .iter()
-                .map(|f| Model::open(&f.label, &f.path, mappings))
-                .collect::<Result<_, _>>()?,
+            foreign: others(foreign)?,
+            drivers: others(drivers)?,
         };
         for mapping in mappings {
             models.require(&mapping.model, &mapping.to_string())?;
@@ -140,7 +158,10 @@ impl Models {
 
     /// Every FMU, truth first.
     pub fn all(&self) -> impl Iterator<Item = &Model> {
-        std::iter::once(&self.truth).chain(&self.nav).chain(&self.foreign)
+        std::iter::once(&self.truth)
+            .chain(&self.nav)
+            .chain(&self.foreign)
+            .chain(&self.drivers)
     }
 
     /// Checks that an FMU is in the study; `text` is what named it.

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use cosim::{FmuSlave, Slave, Value};
-use fmi2_import::Fmu;
+use fmi2_import::{Fmu, ImportError};
 
 use crate::error::StudyError;
 use crate::samples::StatusItems;
@@ -21,8 +21,23 @@ pub trait SlaveSource: Send + Sync {
 
 impl SlaveSource for Fmu {
     fn create(&self, name: &str) -> Result<Box<dyn Slave>, StudyError> {
-        Ok(Box::new(FmuSlave::new(self.instantiate(name, false)?)))
+        match self.instantiate(name, false) {
+            Ok(instance) => Ok(Box::new(FmuSlave::new(instance))),
+            Err(source) if expects_python(&source) => Err(StudyError::ExpectsPython {
+                label: name.to_owned(),
+                source: Box::new(source),
+            }),
+            Err(source) => Err(source.into()),
+        }
     }
+}
+
+/// Whether the loader missed a symbol of Python.
+fn expects_python(error: &ImportError) -> bool {
+    let ImportError::Load { reason, .. } = error else {
+        return false;
+    };
+    ["symbol: Py", "symbol: _Py"].iter().any(|start| reason.contains(start))
 }
 
 /// One part in a run: where its slave comes from and what is set before it starts.

@@ -73,12 +73,18 @@ pub struct Plan {
     /// Foreign filters, after those of fmu-nav.
     #[serde(rename = "nav")]
     pub foreign: Vec<ForeignFilter>,
+    /// Drivers: foreign FMUs that push the vehicles.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub drive: Vec<ForeignFilter>,
     /// Whether foreign filters may read `truth.*`: what does is a bound and no filter.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub allow_truth: bool,
     /// Names in foreign FMUs.
     #[serde(rename = "map")]
     pub mappings: Vec<Mapping>,
+    /// Files of names whose mappings join `mappings`.
+    #[serde(rename = "map_file", skip_serializing_if = "Vec::is_empty")]
+    pub map_files: Vec<PathBuf>,
     /// Files of a search whose sets join `tuned`.
     #[serde(rename = "tuned_file", skip_serializing_if = "Vec::is_empty")]
     pub tuned_files: Vec<PathBuf>,
@@ -117,6 +123,10 @@ pub struct Isolation {
     pub run_limit_s: f64,
     /// Most memory of a worker, MiB.
     pub memory_limit_mib: u64,
+    /// Libraries that workers load before any FMU, for FMUs that expect them in the program; `python`: that of the `python3` on the
+    /// path.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub preload: Vec<PathBuf>,
 }
 
 impl Default for Isolation {
@@ -127,6 +137,7 @@ impl Default for Isolation {
             call_limit_s: limits.call_s,
             run_limit_s: limits.run_s,
             memory_limit_mib: limits.memory >> 20,
+            preload: Vec::new(),
         }
     }
 }
@@ -200,8 +211,10 @@ impl Default for Plan {
             variations: Vec::new(),
             truth: None,
             foreign: Vec::new(),
+            drive: Vec::new(),
             allow_truth: false,
             mappings: Vec::new(),
+            map_files: Vec::new(),
             tuned_files: Vec::new(),
             tuned: Vec::new(),
             isolation: Isolation::default(),
@@ -456,11 +469,13 @@ impl Plan {
             .truth
             .iter()
             .filter_map(|path| Some(format!("truth-{}", path.file_stem()?.to_string_lossy())));
+        let drivers = self.drive.iter().map(|driver| format!("drive-{}", driver.label));
         let step = self.step_s.map(|step| format!("step-{step}"));
         let duration = self.duration_s.map(|duration| format!("duration-{duration}"));
         let scheme = (self.scheme != Scheme::GaussSeidel).then(|| scheme_name(self.scheme).to_owned());
         set.chain(varied)
             .chain(truth)
+            .chain(drivers)
             .chain(step)
             .chain(duration)
             .chain(scheme)
@@ -556,8 +571,10 @@ mod tests {
             variations: vec!["fmu-nav.k=loguniform:0.1:10".parse().unwrap()],
             truth: Some("their.fmu".into()),
             foreign: vec!["other=b.fmu".parse().unwrap()],
+            drive: vec!["guide=g.fmu".parse().unwrap()],
             allow_truth: true,
             mappings: vec!["other.x=est.r_tc_n".parse().unwrap()],
+            map_files: vec!["names.toml".into()],
             tuned: vec![TunedSet {
                 file: None,
                 scenario: "formation".to_owned(),

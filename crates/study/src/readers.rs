@@ -1,6 +1,6 @@
 //! From variables to samples: which names of a truth or filter are read, and what they mean together.
 
-use cosim::{CosimError, Handle, Sample, SlaveId, StepContext, System};
+use cosim::{CosimError, Handle, Port, Probe, Sample, SlaveId, StepContext, System};
 use nalgebra::{SMatrix, Vector3};
 
 use crate::error::StudyError;
@@ -18,6 +18,79 @@ fn required<T>(found: Result<T, CosimError>, participant: &Participant, name: &s
         label: participant.label.clone(),
         name: name.to_owned(),
     })
+}
+
+/// Units of position, velocity and acceleration, as exponents of m and s.
+const UNITS: [[i32; 2]; 3] = [[1, 0], [1, -1], [1, -2]];
+
+/// Refuses a variable whose unit measures something else; one that says no unit is taken as it comes.
+///
+/// # Errors
+/// [`StudyError::Unit`].
+fn check_unit(system: &System, slave: SlaveId, label: &str, name: &str, [m, s]: [i32; 2]) -> Result<(), StudyError> {
+    let port = system.port(slave, name);
+    let Some(unit) = port.and_then(|port| port.unit.as_deref()) else {
+        return Ok(());
+    };
+    if unit.base.is_none_or(|base| base.exponents == [0, m, s, 0, 0, 0, 0, 0]) {
+        return Ok(());
+    }
+    Err(StudyError::Unit {
+        label: label.to_owned(),
+        name: name.to_owned(),
+        found: unit.name.clone(),
+        expected: in_words(m, s),
+    })
+}
+
+/// [`check_unit`] for the elements of position, velocity and acceleration.
+fn check_vectors(system: &System, slave: SlaveId, label: &str, names: [&str; 3]) -> Result<(), StudyError> {
+    for (name, unit) in names.into_iter().zip(UNITS) {
+        for axis in 1..=3 {
+            check_unit(system, slave, label, &format!("{name}[{axis}]"), unit)?;
+        }
+    }
+    Ok(())
+}
+
+/// A unit of m and s, as in 'm2/s3'.
+fn in_words(m: i32, s: i32) -> String {
+    let power = |unit: &str, n: i32| if n == 1 { unit.to_owned() } else { format!("{unit}{n}") };
+    if s == 0 {
+        power("'m", m) + "'"
+    } else {
+        format!("'{}/{}'", power("m", m), power("s", -s))
+    }
+}
+
+/// Whether a variable is `name` or an element of it.
+fn is_element(variable: &str, name: &str) -> bool {
+    let indices = variable.strip_prefix(name);
+    indices.is_some_and(|i| i.is_empty() || i.starts_with('['))
+}
+
+/// Names, without indices, of what a filter is fed or read whose unit it does not say, though the truth says its own.
+pub(crate) fn units_unsaid(system: &System, truth: SlaveId, filter: SlaveId, frame: Frame) -> Vec<String> {
+    let signals = frame.signals();
+    let says = |slave, name: &str| {
+        let unit = system
+            .port(slave, &format!("{name}[1]"))
+            .and_then(|port| port.unit.as_deref());
+        unit.is_some_and(|unit| unit.base.is_some())
+    };
+    let read = [signals.position, signals.velocity].map(|[of_truth, of_filter]| {
+        let silent = says(truth, of_truth) && !says(filter, of_filter);
+        silent.then(|| of_filter.to_owned())
+    });
+    let mut names: Vec<String> = Vec::new();
+    let fed = system.inputs_of_unknown_unit(filter).into_iter();
+    let fed = fed.map(|name| name.split('[').next().unwrap_or(name).to_owned());
+    for name in fed.chain(read.into_iter().flatten()) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
 }
 
 /// Reads [`TruthSample`]s.
@@ -51,6 +124,8 @@ impl TruthReader {
         let mut vector = |name: &str| required(body.vec3(name), participant, name);
         let position = vector(signals.position[0])?;
         let velocity = vector(signals.velocity[0])?;
+        let names = [signals.position[0], signals.velocity[0], signals.acceleration[0]];
+        check_vectors(system, slave, &participant.label, names)?;
         let chaser = match signals.chaser {
             Some([r, v]) => Some([vector(r)?, vector(v)?]),
             None => None,
@@ -111,6 +186,93 @@ pub(crate) struct Tag {
     pub status: Option<Status>,
 }
 
+/// A covariance of position, velocity and perhaps acceleration.
+#[derive(Debug, Clone, Copy)]
+enum Covariance {
+    Six(Handle<[[f64; 6]; 6]>),
+    Nine(Handle<[[f64; 9]; 9]>),
+}
+
+impl Covariance {
+    /// Of the largest state it has room for.
+    fn dimension(self) -> usize {
+        match self {
+            Self::Six(_) => 6,
+            Self::Nine(_) => 9,
+        }
+    }
+
+    /// Chooses `cov.p`, if the filter offers any.
+    ///
+    /// # Errors
+    /// [`StudyError::Shape`] unless it is 6x6 or 9x9 Reals.
+    fn choose(body: &mut Probe<'_>, ports: &[Port], label: &str) -> Result<Option<Self>, StudyError> {
+        let elements = elements(ports, "cov.p");
+        let found = match elements {
+            0 => return Ok(None),
+            36 => body.matrix("cov.p").ok().map(Self::Six),
+            81 => body.matrix("cov.p").ok().map(Self::Nine),
+            _ => None,
+        };
+        let refused = || {
+            odd(
+                label,
+                "cov.p",
+                elements,
+                "6x6 or 9x9 Reals, 'cov.p[1,1]' to 'cov.p[6,6]' or 'cov.p[9,9]'",
+            )
+        };
+        found.map(Some).ok_or_else(refused)
+    }
+
+    /// The matrix; beyond its own states it is zero.
+    fn read(self, sample: &Sample) -> SMatrix<f64, 9, 9> {
+        match self {
+            Self::Six(handle) => {
+                let mut p = SMatrix::<f64, 9, 9>::zeros();
+                p.fixed_view_mut::<6, 6>(0, 0)
+                    .copy_from(&SMatrix::<f64, 6, 6>::from(sample.get(handle)).transpose());
+                p
+            }
+            Self::Nine(handle) => SMatrix::<f64, 9, 9>::from(sample.get(handle)).transpose(),
+        }
+    }
+}
+
+/// Number of variables `name` and `name[...]`.
+fn elements(ports: &[Port], name: &str) -> usize {
+    ports.iter().filter(|p| is_element(&p.name, name)).count()
+}
+
+fn odd(label: &str, name: &str, elements: usize, expected: &'static str) -> StudyError {
+    StudyError::Shape {
+        label: label.to_owned(),
+        name: name.to_owned(),
+        found: format!("{elements} variables"),
+        expected,
+    }
+}
+
+/// A vector that a filter may leave out, but not offer in part.
+///
+/// # Errors
+/// [`StudyError::Shape`] unless it has three Reals or nothing.
+fn vector_or_nothing(
+    body: &mut Probe<'_>,
+    ports: &[Port],
+    label: &str,
+    name: &str,
+) -> Result<Option<VectorHandle>, StudyError> {
+    match elements(ports, name) {
+        0 => Ok(None),
+        count => {
+            let found = body.vec3(name).ok().filter(|_| count == 3);
+            let expected = "three Reals with the indices [1] to [3]";
+            found.map(Some).ok_or_else(|| odd(label, name, count, expected))
+        }
+    }
+}
+
 /// Reads [`Tag`]s and [`Estimate`]s.
 pub(crate) struct EstimateReader {
     /// Read at each communication point.
@@ -128,7 +290,7 @@ pub(crate) struct EstimateReader {
     acceleration_valid: Option<Handle<bool>>,
     bias: Option<VectorHandle>,
     bias_sigma: Option<VectorHandle>,
-    covariance: Option<Handle<[[f64; 9]; 9]>>,
+    covariance: Option<Covariance>,
     residual: [Option<VectorHandle>; 2],
     residual_variance: [Option<VectorHandle>; 2],
     nis: Option<Handle<f64>>,
@@ -154,6 +316,25 @@ impl EstimateReader {
         let residual = innovations.map(innovation);
         let variance = |rows: &Option<Innovation>| body.vec3(rows.as_ref()?.variance).ok();
         let residual_variance = innovations.map(variance);
+        let ports = system.ports(slave);
+        let label = &participant.label;
+        let mut optional = |name: &str| vector_or_nothing(&mut body, ports, label, name);
+        let acceleration = optional(signals.acceleration[1])?;
+        let bias = match signals.bias {
+            Some([_, name]) => optional(name)?,
+            None => None,
+        };
+        let jerk_root = optional("q.s")?;
+        let covariance = Covariance::choose(&mut body, ports, label)?;
+        let names = [signals.position[1], signals.velocity[1], signals.acceleration[1]];
+        check_vectors(system, slave, label, names)?;
+        for i in 0..9 {
+            for j in 0..9 {
+                let ([m, s], [n, t]) = (UNITS[i / 3], UNITS[j / 3]);
+                let element = format!("cov.p[{},{}]", i + 1, j + 1);
+                check_unit(system, slave, label, &element, [m + n, s + t])?;
+            }
+        }
         Ok(Self {
             count: head.integer("est.count").ok(),
             time: head.real("est.time").ok(),
@@ -163,16 +344,16 @@ impl EstimateReader {
             head: head.sample(),
             position,
             velocity,
-            acceleration: body.vec3(signals.acceleration[1]).ok(),
+            acceleration,
             acceleration_valid: body.boolean("est.acceleration_valid").ok(),
-            bias: signals.bias.and_then(|[_, name]| body.vec3(name).ok()),
+            bias,
             bias_sigma: signals.bias_sigma.and_then(|names| body.reals(&names).ok()),
-            covariance: body.matrix("cov.p").ok(),
+            covariance,
             residual,
             residual_variance,
             nis: body.real("nis").ok(),
             nis_rows: body.integer("nis.rows").ok(),
-            jerk_root: body.vec3("q.s").ok(),
+            jerk_root,
             body: body.sample(),
         })
     }
@@ -195,11 +376,15 @@ impl EstimateReader {
         let x = &self.body;
         let vector = |handle| Vector3::from(x.get::<[f64; 3]>(handle));
         let offered = if self.acceleration.is_some() { 9 } else { 6 };
+        let room = self.covariance.map_or(9, Covariance::dimension);
         let dimension = tag
             .dimension
-            .map_or(offered, |d| usize::try_from(d).unwrap_or(0).min(9));
+            .map_or(offered, |d| usize::try_from(d).unwrap_or(0))
+            .min(room);
         // Unless it says so itself, a filter of six states that shows an acceleration has none: it shows zeros.
-        let estimates_acceleration = self.acceleration_valid.map_or(dimension != 6, |valid| x.get(valid));
+        let estimates_acceleration = self
+            .acceleration_valid
+            .map_or(tag.dimension != Some(6), |valid| x.get(valid));
         Some(Estimate {
             position: vector(self.position),
             velocity: vector(self.velocity),
@@ -208,7 +393,7 @@ impl EstimateReader {
             covariance: self
                 .covariance
                 .filter(|_| dimension > 0)
-                .map(|handle| SMatrix::<f64, 9, 9>::from(x.get(handle)).transpose()),
+                .map(|covariance| covariance.read(x)),
             dimension,
             bias_sigma: self.bias_sigma.map(vector),
             residual: self.residual.map(|rows| rows.map(vector)),

@@ -3,12 +3,12 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use cosim::{RunOptions, Scheme, SlaveId, StepContext, System, Value};
+use cosim::{Causality, RunOptions, Scheme, SlaveId, StepContext, System, Value};
 
 use crate::error::{StudyError, chain};
 use crate::history::History;
 use crate::participant::Participant;
-use crate::readers::{EstimateReader, TruthReader};
+use crate::readers::{EstimateReader, TruthReader, units_unsaid};
 use crate::samples::{Estimate, TruthSample};
 use crate::spec::{SAME_TIME, Spec};
 use crate::stop::stop_asked;
@@ -67,6 +67,7 @@ struct Coupled {
     truth: SlaveId,
     truth_reader: TruthReader,
     seats: Vec<Result<Seat, StudyError>>,
+    drivers: Vec<SlaveId>,
 }
 
 /// Instantiates and wires the truth and every filter; a filter that cannot be is an error of its own.
@@ -91,6 +92,15 @@ fn couple(spec: &Spec, run: u32) -> Result<Coupled, StudyError> {
         });
         seated.push(fed);
     }
+    let mut drivers = Vec::new();
+    for driver in &spec.drivers {
+        let id = seat(&mut system, driver, spec.seed, run)?;
+        drive(&mut system, id, truth, driver)?;
+        for filter in seated.iter().flatten().filter(|_| spec.closed_loop) {
+            system.connect_by_name_from(*filter, id)?;
+        }
+        drivers.push(id);
+    }
     let unconnected = system.unconnected_inputs();
     let seats = seated.into_iter().zip(&spec.filters).map(|(seated, filter)| {
         let id = seated?;
@@ -112,7 +122,32 @@ fn couple(spec: &Spec, run: u32) -> Result<Coupled, StudyError> {
         truth,
         truth_reader,
         seats,
+        drivers,
     })
+}
+
+/// Couples a driver with the world: it reads what it asks for, and feeds every input of the world that it has an output for.
+fn drive(system: &mut System, id: SlaveId, truth: SlaveId, driver: &Participant) -> Result<(), StudyError> {
+    system.connect_by_name_from(truth, id)?;
+    let ports = system.ports(truth).iter().filter(|p| p.causality == Causality::Input);
+    let inputs: Vec<String> = ports.map(|p| p.name.clone()).collect();
+    let offers = |name: &&String| {
+        let port = system.port(id, name);
+        port.is_some_and(|port| port.causality == Causality::Output)
+    };
+    let driven: Vec<&String> = inputs.iter().filter(offers).collect();
+    if driven.is_empty() {
+        let mut names: Vec<&str> = inputs.iter().filter_map(|name| name.split('[').next()).collect();
+        names.dedup();
+        return Err(StudyError::DrivesNothing {
+            label: driver.label.clone(),
+            inputs: names.join(", "),
+        });
+    }
+    for name in driven {
+        system.connect(id, name, truth, name)?;
+    }
+    Ok(())
 }
 
 /// Refuses a filter that asks for what no filter may see.
@@ -158,8 +193,19 @@ pub fn seat(system: &mut System, participant: &Participant, seed: i32, run: u32)
 /// Whatever a slave or the wiring refuses.
 pub fn rehearse(spec: &Spec) -> Result<Vec<String>, StudyError> {
     spec.check_grid()?;
+    if spec.takes_worlds_apart() {
+        let mut told = Vec::new();
+        for filter in 0..spec.filters.len() {
+            for text in rehearse(&spec.subset(&[filter]))? {
+                if !told.contains(&text) {
+                    told.push(text);
+                }
+            }
+        }
+        return Ok(told);
+    }
     let mut coupled = couple(spec, 0)?;
-    let mut seats = Vec::new();
+    let mut seats = coupled.drivers;
     for seat in coupled.seats {
         seats.push(seat?.id);
     }
@@ -178,7 +224,12 @@ pub fn rehearse(spec: &Spec) -> Result<Vec<String>, StudyError> {
         .into_iter()
         .filter(|u| seats.contains(&u.slave));
     let told = open.map(|u| format!("nothing feeds {}: {}; it keeps its start value", u.slave_name, u.input));
-    Ok(told.collect())
+    let unsaid = seats.iter().filter_map(|filter| {
+        let names = units_unsaid(&coupled.system, coupled.truth, *filter, spec.world.frame);
+        let label = coupled.system.name(*filter);
+        (!names.is_empty()).then(|| format!("{label} says no unit of {}: taken as SI", names.join(", ")))
+    });
+    Ok(told.chain(unsaid).collect())
 }
 
 /// Time of one `fmi2DoStep` of a filter that has no new sample: the cost of crossing the interface, s.
@@ -200,12 +251,40 @@ pub fn call_time(spec: &Spec, filter: &Participant) -> Result<Duration, StudyErr
     Ok(report.timings.first().map_or(Duration::ZERO, |t| t.step / CALLS))
 }
 
-/// Runs one world with every filter beside it.
+/// Runs one world with every filter beside it, or one for each filter where a driver reads it.
 ///
 /// * `observe`: called for each estimate with the filter's index, the truth at the estimate's own epoch and the
 ///   estimate; a text it returns fails that filter.
 /// * returns: how it ended for each filter. Never an error: what goes wrong is a failure of the filters it concerns.
 pub fn run_once(
+    spec: &Spec,
+    run: u32,
+    mut observe: impl FnMut(usize, &TruthSample, &Estimate) -> Result<(), String>,
+) -> RunReport {
+    if !spec.takes_worlds_apart() {
+        return run_world(spec, run, observe);
+    }
+    let mut whole = RunReport {
+        endings: Vec::new(),
+        steps: 0,
+        truth_time: SlaveTime::default(),
+        filter_times: Vec::new(),
+    };
+    for filter in 0..spec.filters.len() {
+        let own = run_world(&spec.subset(&[filter]), run, |_, truth, estimate| {
+            observe(filter, truth, estimate)
+        });
+        whole.endings.extend(own.endings);
+        whole.steps = whole.steps.max(own.steps);
+        whole.truth_time.step += own.truth_time.step;
+        whole.truth_time.exchange += own.truth_time.exchange;
+        whole.filter_times.extend(own.filter_times);
+    }
+    whole
+}
+
+/// Runs one world with every filter of the study in it.
+fn run_world(
     spec: &Spec,
     run: u32,
     mut observe: impl FnMut(usize, &TruthSample, &Estimate) -> Result<(), String>,
@@ -221,6 +300,7 @@ pub fn run_once(
         truth,
         mut truth_reader,
         mut seats,
+        drivers: _,
     } = match couple(spec, run) {
         Ok(coupled) => coupled,
         Err(error) => {

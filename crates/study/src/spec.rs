@@ -18,6 +18,10 @@ pub struct Spec {
     pub truth: Participant,
     /// The filters, in the order of the results.
     pub filters: Vec<Participant>,
+    /// Who pushes the vehicles, as guidance and life support do.
+    pub drivers: Vec<Participant>,
+    /// Whether a driver reads a filter: then every filter flies in a world of its own, seeded alike.
+    pub closed_loop: bool,
     /// Seed of the study.
     pub seed: i32,
     /// Communication step, s.
@@ -61,6 +65,23 @@ impl Spec {
         } else {
             Err(StudyError::StepGrid { step, period })
         }
+    }
+
+    /// The same study with some of its filters, by their places.
+    pub(crate) fn subset(&self, filters: &[usize]) -> Self {
+        let chosen = filters.iter().filter_map(|place| self.filters.get(*place).cloned());
+        Self {
+            world: self.world.clone(),
+            truth: self.truth.clone(),
+            filters: chosen.collect(),
+            drivers: self.drivers.clone(),
+            ..*self
+        }
+    }
+
+    /// Whether the filters take more than one world, a [`Spec::subset`] of one filter each.
+    pub(crate) fn takes_worlds_apart(&self) -> bool {
+        self.closed_loop && self.filters.len() > 1
     }
 
     pub(crate) fn options(&self, timing: bool) -> RunOptions {

@@ -38,7 +38,7 @@ pub(crate) enum Answer {
     Rehearsed(Result<Vec<String>, String>),
     /// What a call costs.
     CallTime(Duration),
-    /// A call has not come back in time: whose, by its place among the participants, truth first.
+    /// A call has not come back in time: whose, by its place among the participants: truth, filters, drivers.
     Stuck { participant: usize },
 }
 
@@ -77,7 +77,9 @@ pub fn serve(mut spec: Spec, limits: Limits) -> Result<(), StudyError> {
     rustix::stdio::dup2_stdout(rustix::stdio::stderr()).map_err(|e| failed(e.into()))?;
     let answers = Arc::new(Mutex::new(std::fs::File::from(answers)));
     let watch = Arc::new(Watch::default());
-    let parts = std::iter::once(&mut spec.truth).chain(&mut spec.filters);
+    let parts = std::iter::once(&mut spec.truth)
+        .chain(&mut spec.filters)
+        .chain(&mut spec.drivers);
     for (index, part) in parts.enumerate() {
         part.source = Arc::new(Watched {
             inner: Arc::clone(&part.source),
@@ -94,7 +96,7 @@ pub fn serve(mut spec: Spec, limits: Limits) -> Result<(), StudyError> {
     while let Some(Message::Other(request)) = receive::<Request>(&mut input).map_err(failed)? {
         let answer = match request {
             Request::Run { run, filters } => {
-                let spec = some.entry(filters).or_insert_with_key(|filters| subset(&spec, filters));
+                let spec = some.entry(filters).or_insert_with_key(|filters| spec.subset(filters));
                 message = Outcome::of(spec, run)
                     .to_bytes(begun(message, RUN))
                     .map_err(|e| failed(io::Error::other(e)))?;
@@ -103,7 +105,7 @@ pub fn serve(mut spec: Spec, limits: Limits) -> Result<(), StudyError> {
                 continue;
             }
             Request::Rehearse { filters } => {
-                Answer::Rehearsed(rehearse(&subset(&spec, &filters)).map_err(|error| chain(&error)))
+                Answer::Rehearsed(rehearse(&spec.subset(&filters)).map_err(|error| chain(&error)))
             }
             Request::CallTime { filter } => {
                 let time = spec
@@ -117,23 +119,6 @@ pub fn serve(mut spec: Spec, limits: Limits) -> Result<(), StudyError> {
         send(&mut *output, &answer).map_err(failed)?;
     }
     Ok(())
-}
-
-/// A study with some of its filters.
-fn subset(spec: &Spec, filters: &[usize]) -> Spec {
-    Spec {
-        world: spec.world.clone(),
-        truth: spec.truth.clone(),
-        filters: filters
-            .iter()
-            .filter_map(|place| spec.filters.get(*place).cloned())
-            .collect(),
-        seed: spec.seed,
-        step: spec.step,
-        sample_period: spec.sample_period,
-        scheme: spec.scheme,
-        allow_truth: spec.allow_truth,
-    }
 }
 
 /// Kinds of messages: a run, whose bytes are many and stand as they are, and anything else.

@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use crate::error::StudyError;
 use crate::fold::RunRow;
 use crate::outcome::{Outcome, Part};
+use crate::participant::Participant;
 use crate::run::{Ending, Failure, SlaveTime};
 use crate::spec::Spec;
 use crate::stop::stop_asked;
@@ -74,7 +75,11 @@ impl Workers {
         let mut told = Vec::new();
         for filter in 0..spec.filters.len() {
             match self.ask(&Request::Rehearse { filters: vec![filter] }) {
-                Ok(Message::Other(Answer::Rehearsed(Ok(open)))) => told.extend(open),
+                Ok(Message::Other(Answer::Rehearsed(Ok(open)))) => {
+                    // A driver takes part in the rehearsal of each filter.
+                    let new: Vec<String> = open.into_iter().filter(|text| !told.contains(text)).collect();
+                    told.extend(new);
+                }
                 Ok(Message::Other(Answer::Rehearsed(Err(why)))) => return Err(StudyError::Rehearsal { why }),
                 Ok(_) => return Err(out_of_turn()),
                 Err(Lost::Died { message, .. }) => told.push(format!("{}: {message}", spec.filters[filter].label)),
@@ -125,6 +130,14 @@ impl Workers {
                 }
                 Ok(_) => return Err(out_of_turn()),
                 Err(Lost::Died { participant, message }) => {
+                    if let Some(driver) = participant.and_then(|p| driver(spec, p)) {
+                        let message = format!("driver '{}': {message}", driver.label);
+                        for place in filters {
+                            parts[place] = Some(failed(spec, run, message.clone()));
+                        }
+                        continue;
+                    }
+                    let message = format!("{message}{}", with_drivers(spec));
                     let blamed = participant
                         .and_then(|p| p.checked_sub(1))
                         .filter(|place| filters.contains(place));
@@ -162,6 +175,22 @@ impl Workers {
 
     fn suspects(&self) -> MutexGuard<'_, BTreeSet<usize>> {
         self.suspects.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The driver among the participants, which are truth, filters and drivers.
+fn driver(spec: &Spec, participant: usize) -> Option<&Participant> {
+    let place = participant.checked_sub(1 + spec.filters.len())?;
+    spec.drivers.get(place)
+}
+
+/// What a message adds where a driver may be to blame.
+fn with_drivers(spec: &Spec) -> String {
+    let labels: Vec<&str> = spec.drivers.iter().map(|driver| driver.label.as_str()).collect();
+    if labels.is_empty() {
+        String::new()
+    } else {
+        format!("; it held the driver {}, too", labels.join(", "))
     }
 }
 

@@ -68,7 +68,7 @@ fn cast(filters: &[&str], sets: &[&str], maps: &[&str]) -> Result<(Models, Parti
     let maps: Vec<Mapping> = maps.iter().map(|m| m.parse().unwrap()).collect();
     let choices: Vec<FilterChoice> = filters.iter().map(|f| f.parse().unwrap()).collect();
     let sets: Vec<Assignment> = sets.iter().map(|s| s.parse().unwrap()).collect();
-    let models = Models::open(&truth, Some(&nav), &[other], &maps)?;
+    let models = Models::open(&truth, Some(&nav), &[other], &[], &maps)?;
     let (truth, filters) = models.cast(&worlds::find("leo_venting").unwrap(), &choices, &[], &sets)?;
     Ok((models, truth, filters))
 }
@@ -173,7 +173,7 @@ fn vary(sets: &[&str], variations: &[&str]) -> Result<(Participant, Vec<Particip
     let (models, mut truth, mut filters) = cast(&["fixed_q", "milton@short"], sets, &["other.gain=our.gain"]).unwrap();
     let sets: Vec<Assignment> = sets.iter().map(|s| s.parse().unwrap()).collect();
     let variations: Vec<Variation> = variations.iter().map(|v| v.parse().unwrap()).collect();
-    models.vary(&mut truth, &mut filters, &variations, &sets)?;
+    models.vary(std::iter::once(&mut truth).chain(&mut filters), &variations, &sets)?;
     Ok((truth, filters))
 }
 
@@ -203,13 +203,15 @@ fn variations_miss_a_namesake() {
     let nav = write_fmu(folder.path(), "nav", NAV);
     let theirs = write_fmu(folder.path(), "their", FOREIGN);
     let theirs: ForeignFilter = format!("fixed_q={}", theirs.display()).parse().unwrap();
-    let models = Models::open(&truth, Some(&nav), &[theirs], &[]).unwrap();
+    let models = Models::open(&truth, Some(&nav), &[theirs], &[], &[]).unwrap();
     let ours = ["fixed_q@paper".parse::<FilterChoice>().unwrap()];
     let (mut truth, mut filters) = models
         .cast(&worlds::find("leo_venting").unwrap(), &ours, &[], &[])
         .unwrap();
     let variations = ["fmu-nav.fixed_q.s=uniform:1:2", "fixed_q.gain=uniform:3:4"].map(|v| v.parse().unwrap());
-    models.vary(&mut truth, &mut filters, &variations, &[]).unwrap();
+    models
+        .vary(std::iter::once(&mut truth).chain(&mut filters), &variations, &[])
+        .unwrap();
     let varied = |p: &Participant| p.varied.iter().map(|v| v.name.clone()).collect::<Vec<_>>();
     assert_eq!(
         filters.iter().map(|f| f.label.as_str()).collect::<Vec<_>>(),
@@ -225,7 +227,7 @@ fn tuned_sets_set_parameters_only() {
     let folder = tempfile::tempdir().unwrap();
     let truth = write_fmu(folder.path(), "truth", TRUTH);
     let nav = write_fmu(folder.path(), "nav", NAV);
-    let models = Models::open(&truth, Some(&nav), &[], &[]).unwrap();
+    let models = Models::open(&truth, Some(&nav), &[], &[], &[]).unwrap();
     let cast = |variable: &str, value| {
         let set = TunedSet {
             file: Some(folder.path().join("tuned.json")),
@@ -285,7 +287,7 @@ fn what_cannot_be_varied_is_told() {
 fn a_study_needs_a_filter_and_its_fmu() {
     let folder = tempfile::tempdir().unwrap();
     let truth = write_fmu(folder.path(), "truth", TRUTH);
-    let models = Models::open(&truth, None, &[], &[]).unwrap();
+    let models = Models::open(&truth, None, &[], &[], &[]).unwrap();
     assert!(matches!(
         models.cast(&worlds::find("leo_venting").unwrap(), &[], &[], &[]),
         Err(StudyError::NoFilter)
@@ -296,7 +298,7 @@ fn a_study_needs_a_filter_and_its_fmu() {
         Err(StudyError::NoNav { .. })
     ));
     assert!(matches!(
-        Models::open(Path::new("/no/such.fmu"), None, &[], &[]),
+        Models::open(Path::new("/no/such.fmu"), None, &[], &[], &[]),
         Err(StudyError::Import(_))
     ));
 }
@@ -429,7 +431,7 @@ fn status_is_matched_by_name() {
     let nav = write_fmu(folder.path(), "nav", NAV);
     let theirs: ForeignFilter = format!("theirs={}", theirs.display()).parse().unwrap();
     let mapping: Mapping = "theirs.mode=status".parse().unwrap();
-    let models = Models::open(&truth, Some(&nav), &[theirs], &[mapping]).unwrap();
+    let models = Models::open(&truth, Some(&nav), &[theirs], &[], &[mapping]).unwrap();
     let ours = ["milton".parse::<FilterChoice>().unwrap()];
     let (_, filters) = models
         .cast(&worlds::find("leo_venting").unwrap(), &ours, &[], &[])

@@ -19,8 +19,11 @@ pub(super) fn compare(args: &CompareArgs, out: &mut Out<'_>) -> Result<Verdict, 
     end_when_asked()?;
     let plan = asked(args)?;
     let models = models(&plan, &args.study.build)?;
-    let foreign = plan.truth.is_some() || !plan.foreign.is_empty();
-    let isolate = plan.isolation.isolate.unwrap_or(foreign);
+    let foreign = plan.truth.is_some() || !plan.foreign.is_empty() || !plan.drive.is_empty();
+    let isolate = plan
+        .isolation
+        .isolate
+        .unwrap_or(foreign || !plan.isolation.preload.is_empty());
     let scratch = scratch()?;
     let trial = cast(&plan, &models, scratch.path())?;
     let mut workers = Vec::new();

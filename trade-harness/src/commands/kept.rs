@@ -38,7 +38,7 @@ impl Kept {
         for path in plan.missions.iter_mut().chain(&mut plan.truth) {
             *path = whole(path)?;
         }
-        for foreign in &mut plan.foreign {
+        for foreign in plan.foreign.iter_mut().chain(&mut plan.drive) {
             foreign.path = whole(&foreign.path)?;
         }
         Ok(Self {

@@ -5,7 +5,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use study::{Assignment, ForeignFilter, Models, NAV, OwnFmus, Plan, Study, TRUTH, Variation, stop, stop_asked};
+use study::{
+    Assignment, ForeignFilter, Models, NAV, OwnFmus, Plan, Study, TRUTH, Variation, read_mappings, stop, stop_asked,
+};
 
 use super::out::Out;
 use crate::HarnessError;
@@ -128,7 +130,7 @@ pub(super) fn scratch() -> Result<tempfile::TempDir, HarnessError> {
 /// replaces what the plan says of the same variable.
 ///
 /// # Errors
-/// A file of tuned sets that is none.
+/// A file of tuned sets or of mappings that is none.
 pub(super) fn changed(plan: Plan, study: &StudyArgs) -> Result<Plan, HarnessError> {
     let chosen = study.filters.iter().filter_map(|f| f.0.clone());
     let filters = (!study.filters.is_empty()).then(|| chosen.collect());
@@ -136,6 +138,11 @@ pub(super) fn changed(plan: Plan, study: &StudyArgs) -> Result<Plan, HarnessErro
     for path in plan.tuned_files.iter().chain(&study.tuned) {
         add(&mut tuned, &TunedFile::read(path)?.sets);
     }
+    let mut mappings = plan.mappings;
+    for path in plan.map_files.iter().chain(&study.map_files) {
+        mappings.extend(read_mappings(path)?);
+    }
+    mappings.extend(study.mappings.iter().cloned());
     let set = |model: &str, variable: &str| {
         let same = |a: &Assignment| a.model == model && a.variable == variable;
         study.assignments.iter().any(same)
@@ -147,11 +154,9 @@ pub(super) fn changed(plan: Plan, study: &StudyArgs) -> Result<Plan, HarnessErro
     let taken = |model: &str, variable: &str| set(model, variable) || varied(model, variable);
     let kept = plan.assignments.into_iter().filter(|a| !taken(&a.model, &a.variable));
     let spread = plan.variations.into_iter().filter(|v| !taken(&v.model, &v.variable));
-    let added = |own: Vec<ForeignFilter>| {
-        let kept = own
-            .into_iter()
-            .filter(|f| study.foreign.iter().all(|g| g.label != f.label));
-        kept.chain(study.foreign.iter().cloned()).collect()
+    let added = |own: Vec<ForeignFilter>, asked: &[ForeignFilter]| {
+        let kept = own.into_iter().filter(|f| asked.iter().all(|g| g.label != f.label));
+        kept.chain(asked.iter().cloned()).collect()
     };
     Ok(Plan {
         filters: filters.or(plan.filters),
@@ -161,13 +166,11 @@ pub(super) fn changed(plan: Plan, study: &StudyArgs) -> Result<Plan, HarnessErro
         assignments: kept.chain(study.assignments.iter().cloned()).collect(),
         variations: spread.chain(study.variations.iter().cloned()).collect(),
         truth: study.truth.clone().or(plan.truth),
-        foreign: added(plan.foreign),
+        foreign: added(plan.foreign, &study.foreign),
+        drive: added(plan.drive, &study.drivers),
         allow_truth: plan.allow_truth || study.allow_truth,
-        mappings: plan
-            .mappings
-            .into_iter()
-            .chain(study.mappings.iter().cloned())
-            .collect(),
+        mappings,
+        map_files: Vec::new(),
         tuned_files: Vec::new(),
         tuned,
         ..plan

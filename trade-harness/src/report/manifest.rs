@@ -64,6 +64,9 @@ pub struct StudyFacts {
     scheme: &'static str,
     truth: BTreeMap<String, String>,
     filters: Vec<FilterFacts>,
+    /// Parameters of each driver, by its label.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    drivers: BTreeMap<String, BTreeMap<String, String>>,
     /// What it takes to run this study again.
     plan: Plan,
     /// The mission, every key of it.
@@ -104,6 +107,7 @@ impl StudyFacts {
                     parameters: parameters(f),
                 })
                 .collect(),
+            drivers: spec.drivers.iter().map(|d| (d.label.clone(), parameters(d))).collect(),
             plan: plan.of_case(&study.case).resolved(spec),
             mission: spec.world.mission.clone(),
             notes: spec.world.notes.clone(),

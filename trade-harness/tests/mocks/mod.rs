@@ -90,10 +90,24 @@ pub enum Quirk {
     Tunable,
     /// A truth whose LiDAR samples every 2 s and whose radio every 3 s, so that some seconds have no sample.
     TwoRates,
-    /// A filter that would read the truth.
-    AsksForTruth,
     /// Samples of multiples of five hold no measurement; the NIS output keeps a wild value then.
     Drops,
+    /// A filter whose first position is what its input `truth.r_tc_n[1]` says.
+    AsksForTruth,
+    /// A truth that moves by its input `a_cmd_c_n[1]`, or a filter with an output of that name.
+    Pushes,
+    /// A driver that pushes with 50 until a time at which it fails.
+    Drives {
+        until: f64,
+    },
+    /// A driver that pushes as far as a filter's first position says.
+    Guides,
+    /// Offers a covariance of six states and does not say of how many.
+    SixBySix,
+    /// Offers a covariance without its last element.
+    PartialCovariance,
+    /// Offers two elements of an acceleration.
+    PartialAcceleration,
 }
 
 struct Source {
@@ -104,6 +118,14 @@ struct Source {
 impl SlaveSource for Source {
     fn create(&self, name: &str) -> Result<Box<dyn Slave>, StudyError> {
         Ok(Box::new(Mock::new(name, self.truth, self.quirk)))
+    }
+}
+
+/// A driver.
+pub fn driver(label: &str, quirk: Quirk) -> Participant {
+    Participant {
+        model: label.to_owned(),
+        ..participant(label, false, quirk)
     }
 }
 
@@ -134,6 +156,8 @@ pub fn spec(truth: Quirk, filters: &[(&str, Quirk)]) -> Spec {
         step: 1.0,
         sample_period: 1.0,
         scheme: Scheme::GaussSeidel,
+        drivers: Vec::new(),
+        closed_loop: false,
         allow_truth: false,
     }
 }
@@ -161,6 +185,13 @@ impl Mock {
             booleans: Vec::new(),
             last: 0,
         };
+        if matches!(quirk, Quirk::Drives { .. } | Quirk::Guides) {
+            mock.port("a_cmd_c_n[1]", BaseType::Real, Causality::Output);
+            if quirk == Quirk::Guides {
+                mock.port("est.r_tc_n[1]", BaseType::Real, Causality::Input);
+            }
+            return mock;
+        }
         mock.port("study_seed", BaseType::Integer, Causality::Parameter);
         mock.port("run", BaseType::Integer, Causality::Parameter);
         let sensor = if truth { Causality::Output } else { Causality::Input };
@@ -173,6 +204,10 @@ impl Mock {
         if quirk != Quirk::NoInitialEstimate {
             mock.port("nav_init.x[1]", BaseType::Real, sensor);
         }
+        if quirk == Quirk::Pushes {
+            let role = if truth { Causality::Input } else { Causality::Output };
+            mock.port("a_cmd_c_n[1]", BaseType::Real, role);
+        }
         if truth {
             for name in [
                 "truth.r_tc_n",
@@ -184,9 +219,6 @@ impl Mock {
                 mock.vector(name);
             }
             return mock;
-        }
-        if quirk == Quirk::AsksForTruth {
-            mock.port("truth.r_tc_n[1]", BaseType::Real, Causality::Input);
         }
         if quirk == Quirk::Tunable {
             mock.port("gain", BaseType::Real, Causality::Parameter);
@@ -201,20 +233,33 @@ impl Mock {
             mock.port("est.acceleration_valid", BaseType::Boolean, Causality::Output);
             mock.vector("est.a_t_n");
         }
+        if quirk == Quirk::AsksForTruth {
+            mock.port("truth.r_tc_n[1]", BaseType::Real, Causality::Input);
+        }
+        if quirk == Quirk::PartialAcceleration {
+            mock.port("est.a_t_n[1]", BaseType::Real, Causality::Output);
+            mock.port("est.a_t_n[2]", BaseType::Real, Causality::Output);
+        }
         if quirk == Quirk::Scaled {
             mock.port("factor", BaseType::Real, Causality::Parameter);
         }
         if quirk != Quirk::Bare {
             mock.port("est.count", BaseType::Integer, Causality::Output);
             mock.port("est.time", BaseType::Real, Causality::Output);
-            mock.port("est.dimension", BaseType::Integer, Causality::Output);
+            if quirk != Quirk::SixBySix {
+                mock.port("est.dimension", BaseType::Integer, Causality::Output);
+            }
             mock.port("status", BaseType::Integer, Causality::Output);
             mock.port("nis", BaseType::Real, Causality::Output);
             if quirk == Quirk::TwoRates {
                 mock.port("nis.rows", BaseType::Integer, Causality::Output);
             }
-            for i in 1..=9 {
-                for j in 1..=9 {
+            let states = if quirk == Quirk::SixBySix { 6 } else { 9 };
+            for i in 1..=states {
+                for j in 1..=states {
+                    if quirk == Quirk::PartialCovariance && (i, j) == (9, 9) {
+                        continue;
+                    }
                     mock.port(&format!("cov.p[{i},{j}]"), BaseType::Real, Causality::Local);
                 }
             }
@@ -284,7 +329,8 @@ impl Mock {
                 self.booleans[radio] = seconds % 3 == 0;
             }
         }
-        self.put("truth.r_tc_n[1]", 100.0);
+        let pushed = self.at("a_cmd_c_n[1]").map_or(0.0, |at| self.reals[at]);
+        self.put("truth.r_tc_n[1]", 100.0 + pushed);
         for axis in 0..3 {
             self.put(&format!("truth.a_t_n[{}]", axis + 1), acceleration(axis));
         }
@@ -313,7 +359,8 @@ impl Mock {
             self.put(&format!("est.a_t_n[{}]", axis + 1), estimate);
         }
         for axis in 0..3 {
-            let mut position = factor * noise(run, count, axis) + if axis == 0 { 100.0 } else { 0.0 };
+            let distance = self.at("truth.r_tc_n[1]").map_or(100.0, |at| self.reals[at]);
+            let mut position = factor * noise(run, count, axis) + if axis == 0 { distance } else { 0.0 };
             match self.quirk {
                 Quirk::NotFinite { run: r } if r == run && count > 7 => position = f64::NAN,
                 Quirk::Lost { run: r } if r == run => position += 200.0,
@@ -329,6 +376,7 @@ impl Mock {
         let time = self.reals[self.at("sample_time").unwrap()];
         self.put("est.time", time);
         self.put_integer("est.dimension", 6);
+        self.put("a_cmd_c_n[1]", 50.0);
         let diverged = self.quirk == Quirk::SaysDiverged { run } && count == 5;
         self.put_integer("status", if diverged { 4 } else { 2 });
         let measured = self.booleans[self.at("lidar.valid").unwrap()];
@@ -373,7 +421,15 @@ impl Slave for Mock {
         {
             return Err(SlaveError::new("do_step", "out of cheese"));
         }
-        if self.truth {
+        if let Quirk::Drives { until } = self.quirk {
+            self.put("a_cmd_c_n[1]", 50.0);
+            if t + h > until {
+                return Err(SlaveError::new("do_step", "out of fuel"));
+            }
+        } else if self.quirk == Quirk::Guides {
+            let seen = self.at("est.r_tc_n[1]").map_or(0.0, |at| self.reals[at]);
+            self.put("a_cmd_c_n[1]", seen);
+        } else if self.truth {
             self.step_truth(t + h);
         } else {
             self.step_filter();

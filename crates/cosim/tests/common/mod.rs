@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
-use cosim::{BaseType, Causality, Experiment, Port, Slave, SlaveError, System};
+use cosim::{BaseType, Causality, Experiment, Port, Slave, SlaveError, System, Unit};
 
 /// Calls of all slaves of a test, in their order.
 pub type Journal = Arc<Mutex<Vec<String>>>;
@@ -51,6 +51,13 @@ impl Mock {
             .push(Port::new(name, self.ports.len() as u32, kind, causality));
         self.first.insert(name.to_owned(), start);
         self.values.insert(name.to_owned(), start);
+        self
+    }
+
+    /// Gives the newest port a unit.
+    pub fn unit(mut self, unit: &Unit) -> Self {
+        let port = self.ports.pop().unwrap();
+        self.ports.push(port.with_unit(Some(Arc::new(unit.clone()))));
         self
     }
 

@@ -1,0 +1,294 @@
+//! Filters of other people's making, as docs/your-filter.md shows them: from C and from Python, in units of their own.
+
+#![cfg(unix)]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
+
+mod common;
+
+use common::{harness, harness_ok, read_csv, root, skipped};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const C: &str = "examples/06_own_filter_in_c";
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// Whether the C example can be packed here.
+fn has_tools(test: &str) -> bool {
+    let runs = |program: &str| Command::new(program).arg("--version").output().is_ok();
+    for (program, package) in [("cc", "gcc"), ("python3", "python3")] {
+        if !runs(program) {
+            skipped(test, package);
+            return false;
+        }
+    }
+    true
+}
+
+/// Packs the C example after changes to its source and description.
+fn pack_c(folder: &Path, changes: &[(&str, &str, &str)]) -> PathBuf {
+    for file in ["build.sh", "direct_inversion.c", "modelDescription.xml"] {
+        let mut contents = std::fs::read_to_string(root().join(C).join(file)).unwrap();
+        for (of, old, new) in changes {
+            if *of == file {
+                assert!(contents.contains(old), "{file}: {old}");
+                contents = contents.replace(old, new);
+            }
+        }
+        std::fs::write(folder.join(file), contents).unwrap();
+    }
+    let packed = folder.join("direct_inversion.fmu");
+    let output = Command::new("bash")
+        .arg(folder.join("build.sh"))
+        .arg(&packed)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    packed
+}
+
+/// RMSE columns of the filter `mine` in each run of a short study.
+fn errors(out: &Path, filter: &Path, more: &[&str]) -> Vec<f64> {
+    let mine = format!("mine={}", text(filter));
+    let line = [
+        "compare",
+        "--filters",
+        "snc",
+        "--nav",
+        &mine,
+        "--runs",
+        "2",
+        "--duration",
+        "1500",
+        "--out",
+        text(out),
+    ];
+    harness_ok(&[&line[..], more].concat());
+    let rows = read_csv(&out.join("runs.csv"));
+    let mine: Vec<_> = rows.iter().filter(|row| row["filter"] == "mine").collect();
+    assert_eq!(mine.len(), 2);
+    let number = |row: &std::collections::HashMap<String, String>, column: &str| row[column].parse::<f64>().unwrap();
+    mine.iter()
+        .flat_map(|row| [number(row, "pos_rmse_m"), number(row, "vel_rmse_m_s")])
+        .collect()
+}
+
+#[test]
+fn a_filter_in_kilometres_and_degrees_gives_the_same_numbers() {
+    if !has_tools("units") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let sub = |name: &str| {
+        let path = folder.path().join(name);
+        std::fs::create_dir(&path).unwrap();
+        path
+    };
+    let si = errors(&folder.path().join("out-si"), &pack_c(&sub("si"), &[]), &[]);
+    let description = "modelDescription.xml";
+    let changes = [
+        (
+            "direct_inversion.c",
+            "tan(f->real[AZIMUTH])",
+            "tan(M_PI / 180 * f->real[AZIMUTH])",
+        ),
+        (
+            "direct_inversion.c",
+            "tan(f->real[ELEVATION])",
+            "tan(M_PI / 180 * f->real[ELEVATION])",
+        ),
+        (description, "unit=\"m\"", "unit=\"km\""),
+        (description, "unit=\"m/s\"", "unit=\"km/s\""),
+        (description, "unit=\"rad\"", "unit=\"deg\""),
+        (
+            description,
+            "<Unit name=\"m\"><BaseUnit m=\"1\"/>",
+            "<Unit name=\"km\"><BaseUnit m=\"1\" factor=\"1000\"/>",
+        ),
+        (
+            description,
+            "<Unit name=\"m/s\"><BaseUnit m=\"1\" s=\"-1\"/>",
+            "<Unit name=\"km/s\"><BaseUnit m=\"1\" s=\"-1\" factor=\"1000\"/>",
+        ),
+        (
+            description,
+            "<Unit name=\"rad\"><BaseUnit rad=\"1\"/>",
+            "<Unit name=\"deg\"><BaseUnit rad=\"1\" factor=\"0.017453292519943295\"/>",
+        ),
+    ];
+    let other = errors(&folder.path().join("out-other"), &pack_c(&sub("other"), &changes), &[]);
+    for (si, other) in si.iter().zip(&other) {
+        // Rounding of 1e-16 in 1 km; a velocity differences two of them over 1 s.
+        assert!((si / other - 1.0).abs() < 1e-9, "{si} {other}");
+    }
+
+    let wrong = [(
+        description,
+        "lidar.range\" valueReference=\"1\" causality=\"input\" variability=\"continuous\"><Real unit=\"m\"",
+        "lidar.range\" valueReference=\"1\" causality=\"input\" variability=\"continuous\"><Real unit=\"s\"",
+    )];
+    let mine = format!("mine={}", text(&pack_c(&sub("wrong"), &wrong)));
+    let refused = harness(&[
+        "compare",
+        "--filters",
+        "snc",
+        "--nav",
+        &mine,
+        "--out",
+        text(&folder.path().join("none")),
+    ]);
+    let told = String::from_utf8_lossy(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(2), "{told}");
+    for part in ["fmu-truth.lidar.range", "'m'", "mine.lidar.range", "'s'"] {
+        assert!(told.contains(part), "{told}");
+    }
+}
+
+#[test]
+fn names_of_ones_own_are_read_from_a_file() {
+    if !has_tools("map-file") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let theirs = [
+        ("modelDescription.xml", "est.r_tc_n", "x_hat"),
+        ("modelDescription.xml", "lidar.range", "rho"),
+    ];
+    let packed = pack_c(folder.path(), &theirs);
+    let names = folder.path().join("names.toml");
+    std::fs::write(&names, "[mine]\nx_hat = \"est.r_tc_n\"\nrho = \"lidar.range\"\n").unwrap();
+    let mapped = errors(&folder.path().join("mapped"), &packed, &["--map-file", text(&names)]);
+    // Two LiDAR sigmas of 0.08 m and 0.04 deg at some km: metres, not the kilometres of a filter that sees nothing.
+    assert!(mapped[0] > 0.05 && mapped[0] < 20.0, "{mapped:?}");
+}
+
+/// PythonFMU in an environment of its own; `None` without Python.
+fn python_fmu() -> Option<PathBuf> {
+    let environment = root().join("target/pythonfmu");
+    let program = environment.join("bin/pythonfmu");
+    if program.is_file() {
+        return Some(program);
+    }
+    let made = Command::new("python3")
+        .args(["-m", "venv", "--clear"])
+        .arg(&environment)
+        .output();
+    if !made.is_ok_and(|output| output.status.success()) {
+        return None;
+    }
+    let pip = [
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--disable-pip-version-check",
+        "pythonfmu==0.7.0",
+    ];
+    let output = Command::new(environment.join("bin/python")).args(pip).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    Some(program)
+}
+
+/// Packs a source by PythonFMU; false, and said, where there is no Python.
+fn pack_python(test: &str, source: &str, folder: &Path) -> bool {
+    let Some(build) = python_fmu() else {
+        skipped(test, "python3-venv");
+        return false;
+    };
+    let output = Command::new(build)
+        .args(["build", "--file", source, "--dest"])
+        .arg(folder)
+        .current_dir(root())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    true
+}
+
+/// Whether the `python3` on the path has a library that can be loaded.
+fn has_library(test: &str) -> bool {
+    let probe = "import sysconfig as s; exit(not s.get_config_var('Py_ENABLE_SHARED'))";
+    let shared = Command::new("python3").args(["-c", probe]).status().unwrap().success();
+    if !shared {
+        skipped(test, "libpython3-dev");
+    }
+    shared
+}
+
+#[test]
+fn guidance_on_a_filters_estimates_gives_each_filter_its_own_world() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = "examples/05_closed_loop/guidance.py";
+    if !pack_python("closed loop", source, folder.path()) || !has_library("closed loop") {
+        return;
+    }
+    let guide = format!("guide={}", text(&folder.path().join("Guidance.fmu")));
+    let rows = |name: &str, filters: &str, driver: &[&str]| {
+        let out = folder.path().join(name);
+        let line = [
+            "compare",
+            "--filters",
+            filters,
+            "--runs",
+            "1",
+            "--duration",
+            "1500",
+            "--out",
+            text(&out),
+        ];
+        harness_ok(&[&line[..], driver].concat());
+        let rows = read_csv(&out.join("runs.csv"));
+        let snc = rows.into_iter().find(|row| row["filter"] == "snc").unwrap();
+        (snc["failed"].clone(), snc["pos_rmse_m"].clone(), out)
+    };
+    let driver = ["--drive", &guide, "--preload", "python"];
+    let both = rows("both", "snc,fixed_q", &driver);
+    let alone = rows("alone", "snc", &driver);
+    let undriven = rows("undriven", "snc", &[]);
+    assert_eq!(
+        (&both.0, &both.1),
+        (&"0".to_owned(), &alone.1),
+        "what another filter does is nothing to snc"
+    );
+    assert_ne!(both.1, undriven.1, "the guidance does something");
+    for file in ["manifest.json", "report.html"] {
+        let contents = std::fs::read_to_string(both.2.join(file)).unwrap();
+        assert!(contents.contains("paired by seed alone"), "{file}");
+    }
+}
+
+#[test]
+fn a_filter_in_python_does_what_the_one_in_c_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = "examples/04_own_filter_in_python/direct_inversion.py";
+    if !has_tools("python") || !pack_python("python", source, folder.path()) {
+        return;
+    }
+    let toy = folder.path().join("Toy.fmu");
+    let mine = format!("mine={}", text(&toy));
+    let line = [
+        "compare",
+        "--filters",
+        "snc",
+        "--nav",
+        &mine,
+        "--out",
+        text(folder.path()),
+    ];
+    let refused = harness(&line);
+    let told = String::from_utf8_lossy(&refused.stderr);
+    assert!(
+        refused.status.code() == Some(2) && told.contains("--preload python"),
+        "{told}"
+    );
+    if !has_library("python") {
+        return;
+    }
+    let python = errors(&folder.path().join("python"), &toy, &["--preload", "python"]);
+    let c = errors(&folder.path().join("c"), &pack_c(folder.path(), &[]), &[]);
+    for (python, c) in python.iter().zip(&c) {
+        assert!((python / c - 1.0).abs() < 1e-9, "{python} {c}");
+    }
+}
