@@ -91,7 +91,11 @@ impl SignFlips {
                 }
             }
         }
-        let mut found: Vec<f64> = sums.iter().filter(|(n, _)| *n > 0.0).map(|(n, sum)| f64::sqrt(sum / n)).collect();
+        let mut found: Vec<f64> = sums
+            .iter()
+            .filter(|(n, _)| *n > 0.0)
+            .map(|(n, sum)| f64::sqrt(sum / n))
+            .collect();
         found.sort_by(f64::total_cmp);
         // With the study's own, 200 equally likely places; ten of them lie above the 190th.
         (found.len() == FLIPS).then(|| found[FLIPS - 10])

@@ -9,6 +9,7 @@ use crate::arguments::{Assignment, FilterChoice};
 use crate::error::StudyError;
 use crate::models::{Models, NAV, OwnFmus, TRUTH};
 use crate::participant::Participant;
+use crate::phase::Phases;
 use crate::plan::Plan;
 use crate::spec::Spec;
 use crate::starts::{StartValues, check_real_range};
@@ -116,6 +117,7 @@ impl Models {
             ..world.clone()
         };
         Ok(Spec {
+            phases: Phases::new(&world, &truth, &plan.phases)?,
             world,
             truth,
             filters,

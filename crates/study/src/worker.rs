@@ -133,6 +133,7 @@ fn subset(spec: &Spec, filters: &[usize]) -> Spec {
         sample_period: spec.sample_period,
         scheme: spec.scheme,
         allow_truth: spec.allow_truth,
+        phases: spec.phases.clone(),
     }
 }
 

@@ -97,8 +97,8 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Verdict
         workers: &workers,
         page: !args.no_report,
     };
-    let missed = finish(folder, finished, &models, &plan, out)?;
-    Ok(if missed && args.check {
+    let judged = finish(folder, finished, &models, &plan, out)?;
+    Ok(if judged.failed || (judged.claims_missed && args.check) {
         Verdict::BoundsMissed
     } else {
         Verdict::Done

@@ -11,6 +11,7 @@ use crate::HarnessError;
 use crate::claims;
 use crate::output::OutputFolder;
 use crate::report::table;
+use crate::requirements;
 use crate::store::StudyFolder;
 
 /// Studies that are over.
@@ -24,15 +25,24 @@ pub(super) struct Finished<'a> {
     pub(super) page: bool,
 }
 
-/// Writes and prints what finished studies found; returns whether a bound was missed.
+/// What finished studies are found to be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Judgement {
+    /// Whether a claim of a source was missed.
+    pub(super) claims_missed: bool,
+    /// Whether a requirement was missed, or a filter failed every run.
+    pub(super) failed: bool,
+}
+
+/// Writes and prints what finished studies found; says what was missed.
 pub(super) fn finish(
     folder: StudyFolder,
     finished: Finished<'_>,
     models: &Models,
     plan: &Plan,
     out: &mut dyn Write,
-) -> Result<bool, HarnessError> {
-    let report = Report::new(finished.studies, finished.results, finished.workers);
+) -> Result<Judgement, HarnessError> {
+    let report = Report::new(&plan.requirements, finished.studies, finished.results, finished.workers)?;
     let output = folder.output().clone();
     let mut files = report.write(&output, models, plan, 0, Vec::new(), Some(folder.identity()))?;
     if finished.page {
@@ -45,7 +55,25 @@ pub(super) fn finish(
     folder.complete()?;
     // What a source claims is claimed of its own world, not of a changed one.
     let as_published = plan.assignments.is_empty() && plan.variations.is_empty() && plan.truth.is_none();
-    print(&report, as_published, &output, &files, out)
+    let claims_missed = print(&report, as_published, &output, &files, out)?;
+    let hopeless = hopeless(&report);
+    hopeless.iter().for_each(|text| note(text));
+    Ok(Judgement {
+        claims_missed,
+        failed: !hopeless.is_empty() || report.verdicts.iter().any(|v| !v.met),
+    })
+}
+
+/// A line for each filter that has no result in any run.
+fn hopeless(report: &Report<'_>) -> Vec<String> {
+    let without = |row: &&Summary| row.runs > 0 && row.failed as u64 == u64::from(row.runs);
+    let told = report.rows.iter().filter(without).map(|row| {
+        format!(
+            "failed: {} in {}, case {}: none of its {} runs has a result; failures.csv says why",
+            row.filter, row.scenario, row.case, row.runs
+        )
+    });
+    told.collect()
 }
 
 fn print(
@@ -94,6 +122,12 @@ fn print(
         }
         missed |= verdicts.iter().any(|v| !v.holds());
         say(out, "")?;
+    }
+    if !report.verdicts.is_empty() {
+        say(
+            out,
+            &format!("Requirements\n{}\n", requirements::render(&report.verdicts)),
+        )?;
     }
     closing(folder, files, out)?;
     Ok(missed)

@@ -10,6 +10,7 @@ use crate::cli::{BuildArgs, StudyArgs, WorkArgs, WorldArgs};
 use crate::output::OutputFolder;
 use crate::pack::{default_folder, fmu_path};
 use crate::report::manifest::peak_memory_mib;
+use crate::requirements::check;
 use crate::tuning::sets::TunedFile;
 
 /// Exit code of a command that was asked to stop.
@@ -88,7 +89,9 @@ pub(super) fn cast(plan: &Plan, models: &Models, folder: &Path) -> Result<Vec<St
     let worlds = plan.worlds(folder)?;
     models.check_effects(plan, &worlds)?;
     let studies = worlds.iter().map(|world| Ok(models.study(plan, world)?));
-    studies.collect()
+    let studies: Vec<Study> = studies.collect::<Result<_, HarnessError>>()?;
+    check(&plan.requirements, &studies)?;
+    Ok(studies)
 }
 
 /// A folder for files that no one keeps.
