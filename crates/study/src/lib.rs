@@ -11,6 +11,7 @@
 //! Start reading at [`Plan`], then [`Study`].
 
 mod arguments;
+mod calibration;
 mod cast;
 mod error;
 mod file;
@@ -48,6 +49,7 @@ mod world;
 pub mod worlds;
 
 pub use arguments::{Assignment, FilterChoice, ForeignFilter, Mapping, PAPER};
+pub use calibration::{Calibration, Check, calibrate};
 pub use error::{StudyError, chain};
 pub use fold::{FilterResult, RunRow, Timing};
 pub use grid::{Grid, Setting};

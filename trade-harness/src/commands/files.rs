@@ -4,7 +4,7 @@ use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use study::{Models, PhaseSummary, Plan, Requirement, Study, StudyResult, Summary, Workers};
+use study::{Calibration, Models, PhaseSummary, Plan, Requirement, Study, StudyResult, Summary, Workers, calibrate};
 
 use crate::HarnessError;
 use crate::output::OutputFolder;
@@ -23,6 +23,8 @@ pub(super) struct Report<'a> {
     pub(super) timings: Vec<TimingRow>,
     /// By study and filter, phase by phase.
     pub(super) phases: Vec<PhaseSummary>,
+    /// Of the statistics themselves.
+    pub(super) calibration: Calibration,
     /// Of what the plan requires.
     pub(super) verdicts: Vec<Verdict>,
 }
@@ -56,6 +58,7 @@ impl<'a> Report<'a> {
             rows,
             timings,
             phases,
+            calibration: calibrate()?,
             verdicts,
         })
     }
@@ -115,6 +118,7 @@ impl<'a> Report<'a> {
         let wall = self.results.iter().map(|r| r.wall).sum();
         let studies = self.studies.iter().map(|s| StudyFacts::new(plan, s)).collect();
         let mut manifest = Manifest::new(models, studies, plan.threads(), wall);
+        manifest.calibration = Some(self.calibration.clone());
         manifest.identity = identity.map(str::to_owned);
         manifest.write(folder, &mut files)?;
         Ok(files)

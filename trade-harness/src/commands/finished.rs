@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use study::{Models, Plan, Study, StudyResult, Summary, Workers, chain};
+use study::{Calibration, Models, Plan, Study, StudyResult, Summary, Workers, chain};
 
 use super::files::Report;
 use super::report::write_page;
@@ -30,7 +30,7 @@ pub(super) struct Finished<'a> {
 pub(super) struct Judgement {
     /// Whether a claim of a source was missed.
     pub(super) claims_missed: bool,
-    /// Whether a requirement was missed, or a filter failed every run.
+    /// Whether a requirement was missed, or a filter failed every run, or the statistics are not to be trusted.
     pub(super) failed: bool,
 }
 
@@ -60,8 +60,29 @@ pub(super) fn finish(
     hopeless.iter().for_each(|text| note(text));
     Ok(Judgement {
         claims_missed,
-        failed: !hopeless.is_empty() || report.verdicts.iter().any(|v| !v.met),
+        failed: !hopeless.is_empty() || !report.calibration.holds || report.verdicts.iter().any(|v| !v.met),
     })
+}
+
+/// What the statistics made of a case whose answers are known.
+fn calibration(tried: &Calibration) -> String {
+    let outside: Vec<&str> = tried
+        .checks
+        .iter()
+        .filter(|c| !c.holds())
+        .map(|c| c.statistic)
+        .collect();
+    let inside = format!(
+        "Calibration: {} of {} statistics of a matched linear filter inside their bounds, {} runs",
+        tried.checks.len() - outside.len(),
+        tried.checks.len(),
+        tried.runs
+    );
+    if outside.is_empty() {
+        inside
+    } else {
+        format!("{inside}; outside: {}", outside.join(", "))
+    }
 }
 
 /// A line for each filter that has no result in any run.
@@ -129,6 +150,7 @@ fn print(
             &format!("Requirements\n{}\n", requirements::render(&report.verdicts)),
         )?;
     }
+    say(out, &calibration(&report.calibration))?;
     closing(folder, files, out)?;
     Ok(missed)
 }
