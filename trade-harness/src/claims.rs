@@ -127,7 +127,7 @@ const fn milton_claims(
         milton("coverage_3s_pos", 0.99, 1.0, inside),
         milton("coverage_3s_vel", 0.99, 1.0, inside),
         milton("coverage_3s_acc", 0.99, 1.0, inside),
-        milton("mean_err_sigma", 0.0, 1.2, unbiased),
+        milton("mean_err_sigma_about_zero", 0.0, 1.2, unbiased),
         milton("diverged", 0.0, 0.0, "no run diverges"),
         milton("failed", 0.0, 0.0, "no run fails"),
     ]

@@ -177,6 +177,14 @@ pub enum HarnessError {
         /// What does.
         differs: String,
     },
+    /// A requirement on what is not there.
+    #[error("requirement '{requirement}': {problem}")]
+    Requirement {
+        /// What is asked.
+        requirement: String,
+        /// What is wrong and what there is.
+        problem: String,
+    },
     /// Another process works in the folder.
     #[error("{} is in use by another process; wait for it, or give another folder with --out", path.display())]
     InUse {

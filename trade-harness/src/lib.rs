@@ -20,6 +20,7 @@ pub mod output;
 pub mod pack;
 pub mod report;
 pub mod reproduce;
+pub mod requirements;
 pub mod store;
 pub mod temporary;
 pub mod tuning;

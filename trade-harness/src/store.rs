@@ -192,6 +192,7 @@ struct StudyIdentity<'a> {
     step_s: f64,
     sample_period_s: f64,
     scheme: &'a str,
+    phases: &'a [study::Phase],
     parts: Vec<PartIdentity<'a>>,
 }
 
@@ -236,6 +237,7 @@ pub fn identity(studies: &[Study], models: &Models) -> Result<String, HarnessErr
             step_s: spec.step,
             sample_period_s: spec.sample_period,
             scheme: scheme_name(spec.scheme),
+            phases: spec.phases.rules(),
             parts: parts.collect(),
         }
     });

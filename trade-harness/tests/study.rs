@@ -270,7 +270,7 @@ fn a_failed_run_is_counted_and_leaves_the_others_alone() {
     // Seven runs are left to compare with the first filter.
     let paired = String::from_utf8(render_paired(&named).unwrap()).unwrap();
     assert!(
-        paired.contains("mock,failing,good,nominal,pos_rmse_m,7,0.0,0.0"),
+        paired.contains("mock,failing,good,nominal,pos_rmse_m,7,0.0,0.0,0.0,0.0,0.0"),
         "{paired}"
     );
 }

@@ -83,6 +83,7 @@ fn figures_of(folder: &Folder, study: &StudyFacts, index: usize, points: usize) 
         filters.push(filter_figures(folder, study, row, points)?);
     }
     let paired = folder.paired(study);
+    let reference = paired.first().map_or("", |r| r.text("reference")).to_owned();
     Ok(Figures {
         id: format!("s{index}"),
         scenario: study.scenario.clone(),
@@ -90,8 +91,11 @@ fn figures_of(folder: &Folder, study: &StudyFacts, index: usize, points: usize) 
         duration_s: study.duration_s,
         events: events(&study.mission),
         filters,
-        reference: paired.first().map_or("", |r| r.text("reference")).to_owned(),
-        forest: paired.iter().filter_map(|row| forest(row)).collect(),
+        forest: (paired.iter())
+            .filter(|row| row.text("reference") == reference)
+            .filter_map(|row| forest(row))
+            .collect(),
+        reference,
         errors: ERRORS.iter().map(|(_, name, unit)| [*name, *unit]).collect(),
     })
 }

@@ -49,6 +49,12 @@ pub enum Source {
     SensorNoise = 17,
     /// Points of the Latin hypercubes of a study's grids.
     Grid = 18,
+    /// Runs whose signs are flipped, for what chance makes of a mean error.
+    SignFlip = 19,
+    /// Runs drawn again, for the intervals of a statistic.
+    Bootstrap = 20,
+    /// The linear system that statistics are tried on.
+    Calibration = 21,
 }
 
 /// Generator for one cause of randomness in one run; equal arguments give equal streams.

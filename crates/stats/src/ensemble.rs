@@ -7,6 +7,10 @@ use nalgebra::Vector3;
 use crate::StatsError;
 use crate::median::median;
 
+/// Fewest runs that a sample sigma is formed from. Of four its relative standard error, 1 / sqrt(2 (n - 1)), is 41 %, and the
+/// square of a mean over its standard error has an expectation of (n - 1) / (n - 3) = 3; from five on both are below 36 % and 2.
+pub const LEAST_RUNS: u32 = 5;
+
 /// Errors of one 3-vector quantity over the runs of a study, one cell for each epoch.
 ///
 /// Fed run by run with [`Ensemble::add`]; holds sums only, so its size does not depend on the number of runs.
@@ -129,6 +133,11 @@ impl Ensemble {
         clip(epochs, self.cells.len()).filter_map(|epoch| self.at(epoch))
     }
 
+    /// Moments of the epochs that have runs enough for a sample sigma.
+    fn carrying(&self, epochs: Range<usize>) -> impl Iterator<Item = EpochMoments> + '_ {
+        self.over(epochs).filter(|m| m.runs >= LEAST_RUNS)
+    }
+
     /// Root mean square, over runs and epochs, of the norm of the error; `None` without any error.
     pub fn rmse(&self, epochs: Range<usize>) -> Option<f64> {
         let mut runs = 0.0;
@@ -151,17 +160,18 @@ impl Ensemble {
         (runs > 0.0).then(|| (sum / runs).map(f64::sqrt))
     }
 
-    /// Median over epochs of estimated over sample sigma, for each axis alone; `None` without variances.
+    /// Median over epochs of estimated over sample sigma, for each axis alone, from epochs with [`LEAST_RUNS`]; `None` without
+    /// any or without variances.
     pub fn ratio_by_axis(&self, epochs: Range<usize>) -> Option<[f64; 3]> {
-        let ratios: Vec<Vector3<f64>> = self.over(epochs).filter_map(|m| m.ratio()).collect();
+        let ratios: Vec<Vector3<f64>> = self.carrying(epochs).filter_map(|m| m.ratio()).collect();
         let axis = |a: usize| median(ratios.iter().map(|r| r[a]));
         Some([axis(0)?, axis(1)?, axis(2)?])
     }
 
-    /// Median over epochs and axes together of estimated over sample sigma; `None` without variances.
+    /// The same over epochs and axes together.
     pub fn ratio(&self, epochs: Range<usize>) -> Option<f64> {
         median(
-            self.over(epochs)
+            self.carrying(epochs)
                 .filter_map(|m| m.ratio())
                 .flat_map(|r| [r[0], r[1], r[2]]),
         )
@@ -179,20 +189,42 @@ impl Ensemble {
     }
 }
 
-/// Root mean square, over epochs, axes and the given quantities, of mean error / (sample sigma / sqrt(runs)).
+/// Root mean square, over epochs, axes and the given quantities, of mean error / (sample sigma about the mean / sqrt(runs)).
 ///
-/// About 1 when the mean error is nothing but the noise of a finite sample; `None` when there is nothing to average.
+/// About 1 when the mean error is nothing but the noise of a finite sample. Epochs of fewer than [`LEAST_RUNS`] runs do not
+/// count; `None` when there is nothing to average.
 pub fn mean_error_in_sigmas(quantities: &[&Ensemble], epochs: Range<usize>) -> Option<f64> {
+    root_mean_square(quantities, epochs, |m| student(&m.mean, &m.second_moment, m.runs))
+}
+
+/// The same with the sample sigma about zero, the root of Eq. (32) of Mamich and Zanetti: never above sqrt(runs).
+pub fn mean_error_in_sigmas_about_zero(quantities: &[&Ensemble], epochs: Range<usize>) -> Option<f64> {
+    root_mean_square(quantities, epochs, |m| {
+        let scores = m.mean.component_div(&m.sample_sigma()) * f64::from(m.runs).sqrt();
+        scores.component_mul(&scores)
+    })
+}
+
+/// Square of Student's t of a mean, by axis.
+pub(crate) fn student(mean: &Vector3<f64>, second_moment: &Vector3<f64>, runs: u32) -> Vector3<f64> {
+    let freedom = f64::from(runs) - 1.0;
+    let squares = mean.component_mul(mean);
+    let about_mean = (second_moment - squares).map(|v| v.max(0.0));
+    squares.component_div(&about_mean) * freedom
+}
+
+fn root_mean_square(
+    quantities: &[&Ensemble],
+    epochs: Range<usize>,
+    squares: impl Fn(&EpochMoments) -> Vector3<f64>,
+) -> Option<f64> {
     let mut n = 0.0;
     let mut sum = 0.0;
-    for moments in quantities.iter().flat_map(|q| q.over(epochs.clone())) {
-        let root_n = f64::from(moments.runs).sqrt();
-        for score in (moments.mean * root_n).component_div(&moments.sample_sigma()).iter() {
-            // 0/0 where every run was exact: no noise to measure against.
-            if score.is_finite() {
-                n += 1.0;
-                sum += score * score;
-            }
+    for moments in quantities.iter().flat_map(|q| q.carrying(epochs.clone())) {
+        // 0/0 where every run was exact: no noise to measure against.
+        for square in squares(&moments).iter().filter(|s| s.is_finite()) {
+            n += 1.0;
+            sum += square;
         }
     }
     (n > 0.0).then(|| f64::sqrt(sum / n))

@@ -2,32 +2,36 @@
 
 /// Bits of the mantissa that tell bins apart: bins are 2^-12 = 0.024 % wide.
 const MANTISSA_BITS: u32 = 12;
+/// Bins of a factor of two.
+const OCTAVE: usize = 1 << MANTISSA_BITS;
 /// Smallest and largest magnitude told apart: 2^-40 and 2^60.
 const EXPONENTS: std::ops::Range<i32> = -40..60;
 
 /// Counts of positive numbers in bins of equal relative width.
 ///
-/// Its memory (1.6 MB) does not depend on how many values come, and its contents not on their order. Values are
-/// placed to 0.024 %; smaller than 2^-40 (zero included) falls into the first bin, larger than 2^60 into the last.
-#[derive(Debug, Clone)]
+/// Its memory (16 KiB for each factor of two that values lie in, at most 1.6 MB) does not depend on how many values come, and
+/// its contents not on their order. Values are placed to 0.024 %; smaller than 2^-40 (zero included) falls into the first bin,
+/// larger than 2^60 into the last.
+#[derive(Debug, Clone, Default)]
 pub struct LogHistogram {
-    counts: Vec<u32>,
+    /// By factor of two from the smallest; empty where no value lies.
+    octaves: Vec<Vec<u32>>,
     total: u64,
-}
-
-impl Default for LogHistogram {
-    fn default() -> Self {
-        Self {
-            counts: vec![0; bins()],
-            total: 0,
-        }
-    }
 }
 
 impl LogHistogram {
     /// Counts one value; a negative value or NaN goes into the first bin.
     pub fn add(&mut self, value: f64) {
-        self.counts[bin(value)] += 1;
+        let bin = bin(value);
+        let (octave, place) = (bin >> MANTISSA_BITS, bin & (OCTAVE - 1));
+        if self.octaves.len() <= octave {
+            self.octaves.resize_with(octave + 1, Vec::new);
+        }
+        let counts = &mut self.octaves[octave];
+        if counts.is_empty() {
+            counts.resize(OCTAVE, 0);
+        }
+        counts[place] += 1;
         self.total += 1;
     }
 
@@ -38,13 +42,22 @@ impl LogHistogram {
 
     /// Value below which half of the counted values lie, to 0.024 %; `None` when there are none.
     pub fn median(&self) -> Option<f64> {
-        let half = 0.5 * self.total as f64;
+        self.quantile(0.5)
+    }
+
+    /// Value below which this share of the counted values lies, to 0.024 %; `None` when there are none.
+    ///
+    /// * `share`: 0 to 1.
+    pub fn quantile(&self, share: f64) -> Option<f64> {
+        let wanted = share * self.total as f64;
         let mut below = 0.0;
-        for (bin, &count) in self.counts.iter().enumerate().filter(|(_, count)| **count > 0) {
+        let octaves = self.octaves.iter().enumerate();
+        let bins = octaves.flat_map(|(octave, counts)| (octave << MANTISSA_BITS..).zip(counts));
+        for (bin, &count) in bins.filter(|(_, count)| **count > 0) {
             let count = f64::from(count);
-            if below + count >= half {
+            if below + count >= wanted {
                 let (low, high) = (edge(bin), edge(bin + 1));
-                return Some(low + (high - low) * (half - below) / count);
+                return Some(low + (high - low) * (wanted - below) / count);
             }
             below += count;
         }
@@ -88,6 +101,10 @@ mod tests {
         values.sort_by(f64::total_cmp);
         assert!((h.median().unwrap() / values[2500] - 1.0).abs() < 2.0_f64.powi(-12) + 8.0 * 2.303 / 5001.0);
         assert_eq!(h.total(), 5001);
+        for share in [0.05, 0.95, 0.997] {
+            let sorted = values[(5001.0 * share) as usize];
+            assert!((h.quantile(share).unwrap() / sorted - 1.0).abs() < 2.0_f64.powi(-12) + 8.0 * 2.303 / 5001.0);
+        }
     }
 
     #[test]

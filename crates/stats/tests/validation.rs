@@ -3,7 +3,10 @@
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use numerics::{Source, stream};
 use rand_distr::{Distribution, StandardNormal};
-use stats::{Ensemble, ScalarEnsemble, mean_chi_square_bounds, mean_error_in_sigmas, nees};
+use stats::{
+    Ensemble, FLIPS, ScalarEnsemble, SignFlips, mean_chi_square_bounds, mean_error_in_sigmas,
+    mean_error_in_sigmas_about_zero, nees,
+};
 
 fn normal3(generator: &mut numerics::Generator) -> Vector3<f64> {
     Vector3::from_fn(|_, _| StandardNormal.sample(generator))
@@ -28,7 +31,7 @@ fn val_ensemble_against_brute_force() {
     }
     let n = runs as f64;
     let mut ratios = Vec::new();
-    let (mut norm2, mut score2, mut inside) = (0.0, 0.0, 0.0);
+    let (mut norm2, mut score2, mut zero2, mut inside) = (0.0, 0.0, 0.0, 0.0);
     for epoch in from..epochs {
         let moments = ensemble.at(epoch).unwrap();
         for axis in 0..3 {
@@ -43,7 +46,9 @@ fn val_ensemble_against_brute_force() {
             assert!((moments.mean_variance.unwrap()[axis] / claimed - 1.0).abs() < 1e-13);
             ratios.push((claimed / second).sqrt());
             norm2 += second * n;
-            score2 += mean * mean * n / second;
+            zero2 += mean * mean * n / second;
+            let about_mean = e.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0);
+            score2 += mean * mean * n / about_mean;
             inside += e.iter().zip(&v).filter(|(e, v)| e.abs() <= 3.0 * v.sqrt()).count() as f64;
         }
     }
@@ -53,6 +58,8 @@ fn val_ensemble_against_brute_force() {
     assert!((ensemble.coverage(range.clone()).unwrap() - inside / (3.0 * n * samples)).abs() < 1e-14);
     let score = mean_error_in_sigmas(&[&ensemble, &ensemble], range.clone()).unwrap();
     assert!((score - (score2 / (3.0 * samples)).sqrt()).abs() < 1e-12);
+    let about_zero = mean_error_in_sigmas_about_zero(&[&ensemble], range.clone()).unwrap();
+    assert!((about_zero - (zero2 / (3.0 * samples)).sqrt()).abs() < 1e-12);
     let by_axis = ensemble.ratio_by_axis(range.clone()).unwrap();
     for (axis, by_axis) in by_axis.into_iter().enumerate() {
         let mut own: Vec<f64> = ratios.iter().copied().skip(axis).step_by(3).collect();
@@ -105,6 +112,47 @@ fn val_a_consistent_filter_looks_consistent() {
     assert!((position.coverage(0..epochs).unwrap() - 0.9973).abs() < 3.0 * 3e-4);
     // Mean square of 1200 standard normals (say 400 independent): 1, sigma of the root 1/sqrt(800) = 3.5 %.
     assert!((mean_error_in_sigmas(&[&position], 0..epochs).unwrap() - 1.0).abs() < 3.0 * 0.035);
+}
+
+/// Studies whose epochs are one and the same error, and studies whose epochs are independent: of both, chance puts 5 % above
+/// the bound. Of 400 studies that is 20, sigma sqrt(400 * 0.05 * 0.95) = 4.4. A bias of one sigma of a run is found.
+#[test]
+fn val_chance_exceeds_the_bound_of_the_mean_error_in_one_study_of_twenty() {
+    let (studies, runs, epochs) = (400, 8, 6);
+    for (follow, bias) in [(true, 0.0), (false, 0.0), (true, 1.5)] {
+        let mut above = 0;
+        for study in 0..studies {
+            let mut generator = stream(17, study, Source::Lidar);
+            let mut ensembles = [Ensemble::new(epochs), Ensemble::new(epochs)];
+            let mut flips = SignFlips::new(epochs, 0);
+            for _ in 0..runs {
+                let signs: [bool; FLIPS] = std::array::from_fn(|_| normal3(&mut generator).x > 0.0);
+                let mut errors = [normal3(&mut generator), normal3(&mut generator)];
+                for epoch in 0..epochs {
+                    if !follow {
+                        errors = [normal3(&mut generator), normal3(&mut generator)];
+                    }
+                    let shifted = errors.map(|e| e.add_scalar(bias));
+                    for (ensemble, error) in ensembles.iter_mut().zip(&shifted) {
+                        ensemble.add(epoch, error, None).unwrap();
+                    }
+                    flips.add(epoch, &shifted, &signs);
+                }
+            }
+            let found = mean_error_in_sigmas(&[&ensembles[0], &ensembles[1]], 0..epochs).unwrap();
+            above += i32::from(found > flips.bound().unwrap());
+        }
+        if bias > 0.0 {
+            assert!(above > 390, "{above}");
+        } else {
+            assert!((above - 20).abs() < 14, "{above} of 400");
+        }
+    }
+    let mut few = SignFlips::new(1, 0);
+    for _ in 0..5 {
+        few.add(0, &[Vector3::repeat(1.0); 2], &[true; FLIPS]);
+    }
+    assert_eq!(few.bound(), None);
 }
 
 /// NEES does not depend on the axes in which error and covariance are given.

@@ -9,6 +9,7 @@ use crate::arguments::{Assignment, FilterChoice};
 use crate::error::StudyError;
 use crate::models::{Model, Models, NAV, OwnFmus, TRUTH};
 use crate::participant::Participant;
+use crate::phase::Phases;
 use crate::plan::{ALL, Plan};
 use crate::spec::Spec;
 use crate::starts::{StartValues, check_real_range};
@@ -190,6 +191,7 @@ impl Models {
             ..world.clone()
         };
         Ok(Spec {
+            phases: Phases::new(&world, &truth, &plan.phases)?,
             world,
             truth,
             filters,

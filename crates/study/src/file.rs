@@ -113,7 +113,7 @@ mod tests {
                 "vary = [\n  \"m.k=uniform:2:1\",\n]\n",
                 "s.toml:1:8: the range 2 to 1 is empty",
             ),
-            ("[[phase]]\nname = \"a\"\nfrom_s = 1\n", "missing field `to_s`"),
+            ("[[phase]]\nname = \"a\"\nfrom = 1\n", "unknown key `from`"),
             (
                 "[[requirement]]\nmetric = \"nees\"\nat_mots = 1\n",
                 "s.toml:3:1: unknown key `at_mots`, did you mean `at_most`?",

@@ -1,13 +1,16 @@
 //! Runs, one after the other, folded into what a study says of a filter.
 
 use nalgebra::Vector3;
+use numerics::{Source, stream};
+use rand::RngExt;
 use serde::{Deserialize, Serialize};
-use stats::{Ensemble, ScalarEnsemble};
+use stats::{Ensemble, FLIPS, ScalarEnsemble, SignFlips};
 
 use crate::error::StudyError;
+use crate::phase_result::PhaseResult;
 use crate::record::{QUANTITIES, Quantity, Record};
 use crate::run::{Ending, Failure, SlaveTime};
-use crate::spec::Spec;
+use crate::spec::Layout;
 
 /// What one filter did in one run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -26,7 +29,7 @@ pub struct RunRow {
     pub nees6: Option<f64>,
     /// Mean over time of the NIS divided by its rows.
     pub nis: Option<f64>,
-    /// The filter or the distance to the truth said so.
+    /// The filter or the distance to the truth said so, of a run without a result before it ended.
     pub diverged: bool,
     /// Set when the run has no result; then it takes no part in the statistics.
     pub failure: Option<Failure>,
@@ -66,13 +69,24 @@ pub struct FilterResult {
     pub first_scored: usize,
     /// Time taken.
     pub timing: Timing,
+    /// By phase; the first is the scored time.
+    pub phases: Vec<PhaseResult>,
+    /// Seed of the study.
+    pub seed: i32,
+    flips: SignFlips,
     epochs: usize,
 }
 
 impl FilterResult {
-    pub(crate) fn new(label: &str, spec: &Spec) -> Self {
-        let epochs = spec.epochs();
-        let first_scored = spec.first_scored();
+    pub(crate) fn new(label: &str, layout: &Layout) -> Self {
+        let &Layout {
+            epochs,
+            first_scored,
+            sample_period,
+            seed,
+            ..
+        } = layout;
+        let names = layout.phases.iter().zip(0..);
         Self {
             label: label.to_owned(),
             runs: Vec::new(),
@@ -85,6 +99,11 @@ impl FilterResult {
             covariances_broken: 0,
             first_scored,
             timing: Timing::default(),
+            phases: names
+                .map(|(name, bit)| PhaseResult::new(name, bit, sample_period))
+                .collect(),
+            seed,
+            flips: SignFlips::new(epochs, first_scored),
             epochs,
         }
     }
@@ -99,9 +118,14 @@ impl FilterResult {
         self.runs.iter().filter(|r| r.failure.is_some()).count()
     }
 
-    /// Runs with a result that diverged.
+    /// Runs that diverged, with a result or before they failed.
     pub fn diverged(&self) -> usize {
         self.runs.iter().filter(|r| r.diverged).count()
+    }
+
+    /// Value that the mean error in sigmas exceeds by chance alone in 5 % of studies; `None` for fewer than six runs.
+    pub fn mean_error_bound(&self) -> Option<f64> {
+        self.flips.bound()
     }
 
     /// Takes in one run.
@@ -109,9 +133,18 @@ impl FilterResult {
     /// * `records`: of its estimates; those of a failed run count for nothing.
     pub(crate) fn fold(&mut self, row: RunRow, records: &[Record]) -> Result<(), StudyError> {
         if row.failure.is_none() {
+            let mut generator = stream(self.seed.unsigned_abs().into(), row.run.into(), Source::SignFlip);
+            let signs: [bool; FLIPS] = std::array::from_fn(|_| generator.random());
             for record in records {
                 self.fold_record(record)?;
+                let motion = [Quantity::Position, Quantity::Velocity].map(|q| record.error(q));
+                if let [Some(position), Some(velocity)] = motion {
+                    self.flips.add(record.epoch as usize, &[position, velocity], &signs);
+                }
             }
+        }
+        for phase in &mut self.phases {
+            phase.fold(if row.failure.is_none() { records } else { &[] })?;
         }
         self.runs.push(row);
         Ok(())
@@ -147,7 +180,8 @@ impl RunRow {
     /// * `first_scored`: first epoch that counts in means over time.
     pub(crate) fn new(run: u32, records: &[Record], first_scored: usize, ending: &Ending) -> Self {
         let failed = ending.failure.is_some();
-        let scored = || records.iter().filter(|r| r.epoch as usize >= first_scored && !failed);
+        let until_the_end = || records.iter().filter(|r| r.epoch as usize >= first_scored);
+        let scored = || until_the_end().filter(|_| !failed);
         let rmse = |q: Quantity| {
             let squares = scored().filter_map(|r| r.error(q).as_ref().map(Vector3::norm_squared));
             mean(squares).map(f64::sqrt)
@@ -164,7 +198,7 @@ impl RunRow {
             nees: mean(scored().filter_map(Record::nees)),
             nees6: mean(scored().filter_map(Record::nees6)),
             nis: mean(scored().filter_map(Record::nis)),
-            diverged: !failed && (ending.says_diverged || scored().any(|r| r.lost)),
+            diverged: ending.says_diverged || until_the_end().any(|r| r.lost),
             failure: ending.failure.clone(),
         }
     }

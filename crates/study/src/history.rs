@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use crate::readers::Tag;
-use crate::samples::TruthSample;
-use crate::spec::{SAME_TIME, Spec};
+use crate::samples::{SAME_TIME, TruthSample};
+use crate::spec::Spec;
 
 /// The truth at every sample of a run so far, for filters that answer late.
 pub(crate) struct History {

@@ -11,6 +11,7 @@
 //! Start reading at [`Plan`], then [`Study`].
 
 mod arguments;
+mod calibration;
 mod cast;
 mod error;
 mod file;
@@ -22,7 +23,11 @@ mod maps;
 mod models;
 mod ordered;
 mod outcome;
+mod pairs;
 mod participant;
+mod phase;
+mod phase_result;
+mod phase_summary;
 mod plan;
 mod readers;
 mod record;
@@ -45,6 +50,7 @@ mod world;
 pub mod worlds;
 
 pub use arguments::{Assignment, FilterChoice, ForeignFilter, Mapping, PAPER};
+pub use calibration::{Calibration, Check, calibrate};
 pub use error::{StudyError, chain};
 pub use fold::{FilterResult, RunRow, Timing};
 pub use grid::{Grid, Setting};
@@ -54,7 +60,11 @@ pub use journal::Journal;
 pub use maps::read_mappings;
 pub use models::{Model, Models, NAV, OwnFmus, TRUTH, filters_of};
 pub use outcome::{Outcome, Part};
+pub use pairs::{Pair, pairs, ranks};
 pub use participant::{Participant, SlaveSource};
+pub use phase::Phases;
+pub use phase_result::{HOLD_S, PhaseResult, PhaseRun};
+pub use phase_summary::{ChiSquareSummary, ErrorSummary, PhaseSummary};
 pub use plan::{ALL, Isolation, Output, Plan, check_case, scheme_name};
 pub use record::{QUANTITIES, Quantity, Record};
 pub use requirement::Requirement;

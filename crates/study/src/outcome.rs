@@ -36,8 +36,9 @@ impl Outcome {
         let epochs = spec.epochs();
         let mut records: Vec<_> = spec.filters.iter().map(|_| Vec::with_capacity(epochs)).collect();
         let report = run_once(spec, run, |filter, truth, estimate| {
-            let record = score(&spec.world, truth, estimate)
+            let mut record = score(&spec.world, truth, estimate)
                 .ok_or_else(|| format!("the axes of the results are undefined at {} s", truth.time))?;
+            record.phases = spec.phases.of(truth);
             records[filter].push(record);
             Ok(())
         });

@@ -259,29 +259,26 @@ impl Plan {
                 );
             }
             let Some(phase) = &requirement.phase else { continue };
-            let names: Vec<&str> = self.phases.iter().map(|p| p.name.as_str()).collect();
-            let problem = if names.contains(&phase.as_str()) {
-                "names a phase, and phases are not scored yet; leave phase out, and set mission.time.scored_from_s to where \
-                 the phase begins"
-                    .to_owned()
-            } else {
-                format!("names phase '{phase}', which is none of: {}", names.join(", "))
-            };
-            return wrong(
-                "requirement",
-                format!("number {number}, on {}, {problem}", requirement.metric),
-            );
+            if let Err(problem) = check_case(phase) {
+                return wrong(
+                    "requirement",
+                    format!(
+                        "number {number}, on {}, names phase {phase:?}: {problem}",
+                        requirement.metric
+                    ),
+                );
+            }
         }
         self.cases().map(drop)
     }
 
     fn check_phases(&self) -> Result<(), StudyError> {
         for (place, phase) in self.phases.iter().enumerate() {
-            let Phase { name, from_s, to_s } = phase;
+            let name = &phase.name;
             let problem = if let Err(problem) = check_case(name) {
                 format!("{name:?}: {problem}")
-            } else if !(*from_s >= 0.0 && from_s < to_s && to_s.is_finite()) {
-                format!("'{name}' from {from_s} to {to_s} s is empty: give 0 <= from_s < to_s")
+            } else if let Err(problem) = phase.check() {
+                problem
             } else if self.phases[..place].iter().any(|other| other.name == *name) {
                 format!("'{name}' stands there twice; give each a name of its own")
             } else {
@@ -607,8 +604,9 @@ mod tests {
             }],
             phases: vec![Phase {
                 name: "end".to_owned(),
-                from_s: 50.0,
-                to_s: 100.0,
+                from_s: Some(50.0),
+                to_s: Some(100.0),
+                ..Phase::default()
             }],
             requirements: vec![Requirement {
                 metric: "nees".to_owned(),
@@ -617,6 +615,7 @@ mod tests {
                 at_most: Some(1.5),
                 at_least: None,
                 confidence: Some(0.95),
+                share: None,
             }],
         };
         let text = serde_json::to_string(&plan).unwrap();
@@ -685,15 +684,16 @@ mod tests {
                 "is empty",
             ),
             (format!("{phase}{phase}"), "twice"),
-            (format!("{asked}phase = \"end\"\n"), "none of"),
-            (format!("{asked}phase = \"end\"\n{phase}"), "not scored yet"),
+            ("[[phase]]\nname = \"end\"\n".to_owned(), "no condition"),
+            ("[[phase]]\nname = \"vents\"\nfrom_s = 1\n".to_owned(), "always there"),
+            (format!("{asked}phase = \"the end\"\n"), "letters"),
             ("[[requirement]]\nmetric = \"nees\"\n".to_owned(), "no bound"),
         ] {
             let error = Plan::parse("s.toml", &text).unwrap().check().unwrap_err().to_string();
             assert!(error.contains(says), "{text}: {error}");
         }
         assert!(
-            Plan::parse("s.toml", &format!("{asked}{phase}"))
+            Plan::parse("s.toml", &format!("{asked}phase = \"end\"\n{phase}"))
                 .unwrap()
                 .check()
                 .is_ok()

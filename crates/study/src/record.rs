@@ -40,8 +40,12 @@ impl Quantity {
 pub struct Record {
     /// Place of the epoch on the study's grid, from 0.
     pub epoch: u32,
+    /// Phases it belongs to, a bit each.
+    pub phases: u32,
     /// Number of states of the NEES.
     pub dimension: u8,
+    /// Rows of the NIS.
+    pub nis_rows: u8,
     /// The filter offers a covariance, but it is not symmetric, positive definite and finite.
     pub covariance_broken: bool,
     /// Position error beyond 100 m and, if a sigma is claimed, beyond ten times 3 sigma.
@@ -60,7 +64,9 @@ impl Record {
         let nothing = Vector3::repeat(f64::NAN);
         Self {
             epoch: u32::try_from(epoch).unwrap_or(u32::MAX),
+            phases: 0,
             dimension: 0,
+            nis_rows: 0,
             covariance_broken: false,
             lost: false,
             errors: [nothing; QUANTITIES],
@@ -144,8 +150,10 @@ pub(crate) fn to_bytes(records: &[Record], bytes: &mut Vec<u8>) {
     bytes.reserve(records.len() * row_length(mask));
     for record in records {
         bytes.extend_from_slice(&record.epoch.to_le_bytes());
+        bytes.extend_from_slice(&record.phases.to_le_bytes());
         bytes.extend([
             record.dimension,
+            record.nis_rows,
             u8::from(record.covariance_broken),
             u8::from(record.lost),
         ]);
@@ -161,7 +169,7 @@ pub(crate) fn to_bytes(records: &[Record], bytes: &mut Vec<u8>) {
 }
 
 fn row_length(mask: u16) -> usize {
-    4 + 3 + 3 * 8 + 24 * mask.count_ones() as usize
+    2 * 4 + 4 + 3 * 8 + 24 * mask.count_ones() as usize
 }
 
 /// Rows from the front of such bytes, which then begin behind them; `None` when they are too short.
@@ -174,8 +182,9 @@ pub(crate) fn from_bytes(bytes: &mut &[u8]) -> Option<Vec<Record>> {
     let mut records = Vec::with_capacity(count);
     for _ in 0..count {
         let mut record = Record::new(u32::from_le_bytes(take(bytes)?) as usize);
-        let [dimension, broken, lost] = take(bytes)?;
-        record.dimension = dimension;
+        record.phases = u32::from_le_bytes(take(bytes)?);
+        let [dimension, rows, broken, lost] = take(bytes)?;
+        (record.dimension, record.nis_rows) = (dimension, rows);
         (record.covariance_broken, record.lost) = (broken != 0, lost != 0);
         for scalar in [&mut record.nees, &mut record.nees6, &mut record.nis] {
             *scalar = f64::from_le_bytes(take(bytes)?);

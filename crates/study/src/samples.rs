@@ -5,6 +5,9 @@ use std::collections::BTreeMap;
 use interface::Status;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
+/// Differences of epochs below this are rounding, s.
+pub(crate) const SAME_TIME: f64 = 1e-6;
+
 /// True state at the epoch of one sensor sample, in the axes of the truth's variables, SI.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct TruthSample {

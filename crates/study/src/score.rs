@@ -49,6 +49,7 @@ pub fn score(world: &World, truth: &TruthSample, estimate: &Estimate) -> Option<
     // At most nine, as the rows of the covariance.
     record.dimension = estimate.dimension as u8;
     record.covariance_broken = covariance_broken;
+    record.nis_rows = u8::try_from(estimate.nis_rows.unwrap_or(world.nis_rows)).unwrap_or(u8::MAX);
     record.lost = position.norm() > LOST_BEYOND
         && position_variance.is_none_or(|v| position.norm() > LOST_FACTOR * 3.0 * v.sum().max(0.0).sqrt());
     record.set(Quantity::Position, Some(axes * position), position_variance);

@@ -4,10 +4,9 @@ use cosim::{OnSlaveError, RunOptions, Scheme};
 
 use crate::error::StudyError;
 use crate::participant::Participant;
+use crate::phase::Phases;
+use crate::samples::SAME_TIME;
 use crate::world::World;
-
-/// Differences of epochs below this are rounding, s.
-pub(crate) const SAME_TIME: f64 = 1e-6;
 
 /// What a run needs to know, apart from its number.
 #[derive(Debug)]
@@ -33,6 +32,23 @@ pub struct Spec {
     pub scheme: Scheme,
     /// Whether filters may read `truth.*`, as bounds do.
     pub allow_truth: bool,
+    /// Named parts of the runs.
+    pub phases: Phases,
+}
+
+/// What the results of a filter are laid out by.
+#[derive(Debug, Clone)]
+pub(crate) struct Layout {
+    /// Epochs of a run.
+    pub(crate) epochs: usize,
+    /// First epoch that counts in statistics over time.
+    pub(crate) first_scored: usize,
+    /// Time between epochs, s.
+    pub(crate) sample_period: f64,
+    /// Seed of the study.
+    pub(crate) seed: i32,
+    /// Names of the phases, in the order of their bits; the first is the scored time.
+    pub(crate) phases: Vec<String>,
 }
 
 impl Spec {
@@ -50,6 +66,17 @@ impl Spec {
     /// First epoch that counts in statistics over time.
     pub fn first_scored(&self) -> usize {
         (((self.world.scored_from_s - SAME_TIME) / self.sample_period).ceil() as usize).saturating_sub(1)
+    }
+
+    /// What results of its filters are laid out by.
+    pub(crate) fn layout(&self) -> Layout {
+        Layout {
+            epochs: self.epochs(),
+            first_scored: self.first_scored(),
+            sample_period: self.sample_period,
+            seed: self.seed,
+            phases: self.phases.rules().iter().map(|rule| rule.name.clone()).collect(),
+        }
     }
 
     /// Checks that every sample that is used falls on a communication point.
@@ -75,6 +102,7 @@ impl Spec {
             truth: self.truth.clone(),
             filters: chosen.collect(),
             drivers: self.drivers.clone(),
+            phases: self.phases.clone(),
             ..*self
         }
     }

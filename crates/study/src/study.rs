@@ -58,8 +58,9 @@ impl Study {
     /// results.
     pub fn run(&self, engine: Engine<'_>, mut finished: impl FnMut(u32, &[RunRow])) -> Result<StudyResult, StudyError> {
         let begin = Instant::now();
+        let layout = self.spec.layout();
         let labels = self.spec.filters.iter().map(|f| &f.label);
-        let mut filters: Vec<_> = labels.map(|label| FilterResult::new(label, &self.spec)).collect();
+        let mut filters: Vec<_> = labels.map(|label| FilterResult::new(label, &layout)).collect();
         self.each(&Shard::WHOLE.runs(self.runs), engine, |outcome| {
             for (filter, part) in filters.iter_mut().zip(outcome.parts) {
                 filter.fold(part.row, &part.records)?;

@@ -1,13 +1,16 @@
 //! The statistics of one filter over the runs of a study.
 
 use nalgebra::Vector3;
-use stats::{ScalarEnsemble, mean_chi_square_bounds, mean_error_in_sigmas, rmse_standard_error, standard_error};
+use stats::{
+    ScalarEnsemble, mean_chi_square_bounds, mean_error_in_sigmas, mean_error_in_sigmas_about_zero, rmse_standard_error,
+    standard_error,
+};
 
 use crate::fold::{FilterResult, RunRow, mean_vector};
 use crate::record::Quantity;
 
 /// Confidence of the bounds of the NEES.
-const CONFIDENCE: f64 = 0.95;
+pub(crate) const CONFIDENCE: f64 = 0.95;
 
 /// One filter in one world and case; `None` where there is nothing to take a statistic of.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -34,6 +37,10 @@ pub struct Summary {
     pub bias: QuantitySummary,
     /// Root mean square over time and axes, of position and velocity, of mean error over its standard error.
     pub mean_error_sigma: Option<f64>,
+    /// Value that it exceeds by chance alone in 5 % of studies.
+    pub mean_error_bound: Option<f64>,
+    /// The same with the sample sigma about zero, Eqs. (31) and (32) of Mamich and Zanetti.
+    pub mean_error_sigma_about_zero: Option<f64>,
     /// NEES over its dimension.
     pub nees: ScalarSummary,
     /// NEES of position and velocity alone, over 6: the same states for every filter.
@@ -52,6 +59,10 @@ pub struct Summary {
     pub zero_acceleration: Option<f64>,
     /// The same by axis.
     pub zero_acceleration_axes: [Option<f64>; 3],
+    /// 95 % interval of the mean NEES over its dimension, from runs drawn again.
+    pub nees_interval: Option<[f64; 2]>,
+    /// Group of filters whose position and velocity errors cannot be told apart, from 1; see [`crate::ranks`].
+    pub ranks: [Option<u32>; 2],
 }
 
 /// Errors of one vector quantity, in its unit; arrays are by axis of the results.
@@ -61,6 +72,8 @@ pub struct QuantitySummary {
     pub rmse: Option<f64>,
     /// Its standard error over the runs.
     pub rmse_error: Option<f64>,
+    /// Its 95 % interval, from runs drawn again.
+    pub interval: Option<[f64; 2]>,
     /// Root mean square.
     pub rmse_axes: [Option<f64>; 3],
     /// Standard error of that over the runs.
@@ -88,6 +101,7 @@ impl Summary {
     /// The statistics of one filter, from the first scored epoch on.
     pub fn new(scenario: &str, case: &str, result: &FilterResult) -> Self {
         let time = result.first_scored..usize::MAX;
+        let motion = [Quantity::Position, Quantity::Velocity].map(|q| result.ensemble(q));
         let dimension = result.dimension;
         let bounds_for = |runs: u32| mean_chi_square_bounds(runs as usize, dimension, CONFIDENCE).ok();
         let finished = result.runs.len() - result.failed();
@@ -95,6 +109,12 @@ impl Summary {
         let over_runs =
             |of: fn(&RunRow) -> Option<f64>| standard_error(&result.runs.iter().filter_map(of).collect::<Vec<_>>());
         let zero = mean_vector(result.runs.iter().filter_map(|r| r.true_acceleration_mean_square));
+        let intervals = result.phases.first().map(|scored| scored.intervals(result.seed));
+        let intervals = intervals.unwrap_or_default();
+        let quantity = |q: Quantity| QuantitySummary {
+            interval: intervals.rmse.get(q as usize).copied().flatten(),
+            ..QuantitySummary::new(result, q)
+        };
         Self {
             scenario: scenario.to_owned(),
             filter: result.label.clone(),
@@ -102,14 +122,13 @@ impl Summary {
             runs: u32::try_from(result.runs.len()).unwrap_or(u32::MAX),
             failed: result.failed(),
             diverged: result.diverged(),
-            position: QuantitySummary::new(result, Quantity::Position),
-            velocity: QuantitySummary::new(result, Quantity::Velocity),
-            acceleration: QuantitySummary::new(result, Quantity::Acceleration),
-            bias: QuantitySummary::new(result, Quantity::Bias),
-            mean_error_sigma: mean_error_in_sigmas(
-                &[result.ensemble(Quantity::Position), result.ensemble(Quantity::Velocity)],
-                time,
-            ),
+            position: quantity(Quantity::Position),
+            velocity: quantity(Quantity::Velocity),
+            acceleration: quantity(Quantity::Acceleration),
+            bias: quantity(Quantity::Bias),
+            mean_error_sigma: mean_error_in_sigmas(&motion, time.clone()),
+            mean_error_bound: result.mean_error_bound(),
+            mean_error_sigma_about_zero: mean_error_in_sigmas_about_zero(&motion, time),
             nees: ScalarSummary::new(&result.nees, over_runs(|r| r.nees)),
             nees6: ScalarSummary::new(&result.nees6, over_runs(|r| r.nees6)),
             nis: ScalarSummary::new(&result.nis, over_runs(|r| r.nis)),
@@ -119,6 +138,8 @@ impl Summary {
             covariances_broken: result.covariances_broken,
             zero_acceleration: zero.map(|v| v.sum().sqrt()),
             zero_acceleration_axes: by_axis(zero.map(|v| v.map(f64::sqrt))),
+            nees_interval: intervals.nees,
+            ranks: [None; 2],
         }
     }
 }
@@ -148,6 +169,7 @@ impl QuantitySummary {
         Self {
             rmse: ensemble.rmse(time()),
             rmse_error: error(&|v| v.sum()),
+            interval: None,
             rmse_axes: by_axis(ensemble.rmse_by_axis(time())),
             rmse_error_axes: [0, 1, 2].map(|axis| error(&|v| v[axis])),
             ratio: ensemble.ratio(time()),

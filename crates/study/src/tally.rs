@@ -15,7 +15,7 @@ use crate::spec::Spec;
 pub struct Tally {
     /// Runs that ended with an error.
     pub failed: u32,
-    /// Runs with a result that lost the target.
+    /// Runs that lost the target, before they failed or without failing.
     pub diverged: u32,
     /// Runs that failed, diverged or had a covariance that is none.
     pub bad_runs: u32,
@@ -37,7 +37,7 @@ impl Tally {
 
     fn add(&mut self, run: &OneRun) {
         let failed = run.failed;
-        let diverged = !failed && run.lost;
+        let diverged = run.lost;
         self.failed += u32::from(failed);
         self.diverged += u32::from(diverged);
         self.bad_runs += u32::from(failed || diverged || run.broken);

@@ -92,8 +92,8 @@ pub(super) fn compare(args: &CompareArgs, out: &mut Out<'_>) -> Result<Verdict, 
         page: plan.output.report,
         wide: args.wide,
     };
-    let missed = finish(folder, finished, &models, &plan, out)?;
-    Ok(if missed && args.check {
+    let judged = finish(folder, finished, &models, &plan, out)?;
+    Ok(if judged.failed || (judged.claims_missed && args.check) {
         Verdict::BoundsMissed
     } else {
         Verdict::Done

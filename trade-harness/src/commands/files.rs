@@ -4,7 +4,7 @@ use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use study::{Models, Plan, Study, StudyResult, Summary, Workers};
+use study::{Calibration, Models, PhaseSummary, Plan, Requirement, Study, StudyResult, Summary, Workers, calibrate};
 
 use crate::HarnessError;
 use crate::output::OutputFolder;
@@ -12,7 +12,8 @@ use crate::report::manifest::{Manifest, StudyFacts};
 use crate::report::measured::measured;
 use crate::report::runs::Named;
 use crate::report::timing::TimingRow;
-use crate::report::{epochs, runs, summary, timing};
+use crate::report::{epochs, phases, runs, summary, timing};
+use crate::requirements::{self, Verdict, evaluate};
 
 /// All results of the command, ready to be written.
 pub(super) struct Report<'a> {
@@ -20,24 +21,46 @@ pub(super) struct Report<'a> {
     pub(super) results: &'a [StudyResult],
     pub(super) rows: Vec<Summary>,
     pub(super) timings: Vec<TimingRow>,
+    /// By study and filter, phase by phase.
+    pub(super) phases: Vec<PhaseSummary>,
+    /// Of the statistics themselves.
+    pub(super) calibration: Calibration,
+    /// Of what the plan requires.
+    pub(super) verdicts: Vec<Verdict>,
 }
 
 impl<'a> Report<'a> {
     /// * `workers`: of each study, where its FMUs are not called in this process.
-    pub(super) fn new(studies: &'a [Study], results: &'a [StudyResult], workers: &[Workers]) -> Self {
+    /// * `required`: of every case.
+    ///
+    /// # Errors
+    /// What a requirement names and no study has.
+    pub(super) fn new(
+        required: &[Requirement],
+        studies: &'a [Study],
+        results: &'a [StudyResult],
+        workers: &[Workers],
+    ) -> Result<Self, HarnessError> {
+        let mut phases = Vec::new();
         let mut rows = Vec::new();
         let mut timings = Vec::new();
         for (index, (study, result)) in studies.iter().zip(results).enumerate() {
-            let (summary, cost) = measured(study, result, workers.get(index));
+            let (summary, cost) = measured(study, result, workers.get(index))?;
             rows.extend(summary);
             timings.extend(cost);
+            let of = |filter| PhaseSummary::of(&study.spec.world.name, &study.case, filter);
+            phases.extend(result.filters.iter().flat_map(of));
         }
-        Self {
+        let verdicts = evaluate(required, studies, results, &rows, &phases)?;
+        Ok(Self {
             studies,
             results,
             rows,
             timings,
-        }
+            phases,
+            calibration: calibrate()?,
+            verdicts,
+        })
     }
 
     /// Writes every file and what else the command has; `manifest.json` last, so that it stands for a complete set.
@@ -67,11 +90,16 @@ impl<'a> Report<'a> {
             .collect();
         let mut files = folder.write_all(vec![
             ("summary.csv".to_owned(), summary::render(&self.rows)?),
+            ("phases.csv".to_owned(), phases::render(&self.phases)?),
             ("paired.csv".to_owned(), runs::render_paired(&named)?),
             ("runs.csv".to_owned(), runs::render_runs(&named)?),
             ("failures.csv".to_owned(), runs::render_failures(&named)?),
             ("timing.csv".to_owned(), timing::render(&self.timings)?),
         ])?;
+        if !self.verdicts.is_empty() {
+            let required = requirements::render_csv(&self.verdicts)?;
+            files.extend(folder.write_all(vec![("requirements.csv".to_owned(), required)])?);
+        }
         let mut to_write = Vec::new();
         for (index, study) in named.iter().enumerate() {
             for filter in study.filters {
@@ -90,6 +118,7 @@ impl<'a> Report<'a> {
         let wall = self.results.iter().map(|r| r.wall).sum();
         let studies = self.studies.iter().map(|s| StudyFacts::new(plan, s)).collect();
         let mut manifest = Manifest::new(models, studies, plan.threads(), wall);
+        manifest.calibration = Some(self.calibration.clone());
         manifest.identity = identity.map(str::to_owned);
         manifest.write(folder, &mut files)?;
         Ok(files)

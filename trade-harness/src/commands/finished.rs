@@ -1,7 +1,7 @@
 //! What becomes of finished studies: files and tables.
 
 use serde_json::{Value, json};
-use study::{Models, Output, Plan, Study, StudyResult, Summary, Workers, chain};
+use study::{Calibration, Models, Output, Plan, Study, StudyResult, Summary, Workers, chain};
 
 use super::files::Report;
 use super::out::Out;
@@ -12,6 +12,7 @@ use crate::claims;
 use crate::output::OutputFolder;
 use crate::report::summary::COLUMNS;
 use crate::report::table;
+use crate::requirements;
 use crate::store::StudyFolder;
 
 /// Name of the file that makes the study again.
@@ -52,15 +53,24 @@ pub(super) struct Finished<'a> {
     pub(super) wide: bool,
 }
 
-/// Writes and prints what finished studies found; returns whether a bound was missed.
+/// What finished studies are found to be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Judgement {
+    /// Whether a claim of a source was missed.
+    pub(super) claims_missed: bool,
+    /// Whether a requirement was missed, or a filter failed every run, or the statistics are not to be trusted.
+    pub(super) failed: bool,
+}
+
+/// Writes and prints what finished studies found; says what was missed.
 pub(super) fn finish(
     folder: StudyFolder,
     finished: Finished<'_>,
     models: &Models,
     plan: &Plan,
     out: &mut Out<'_>,
-) -> Result<bool, HarnessError> {
-    let report = Report::new(finished.studies, finished.results, finished.workers);
+) -> Result<Judgement, HarnessError> {
+    let report = Report::new(&plan.requirements, finished.studies, finished.results, finished.workers)?;
     let output = folder.output().clone();
     let own = vec![(STUDY_FILE.to_owned(), study_file(plan, finished.studies)?.into_bytes())];
     let mut files = report.write(&output, models, plan, 0, own, Some(folder.identity()))?;
@@ -72,7 +82,46 @@ pub(super) fn finish(
         }
     }
     folder.complete()?;
-    print(&report, plan, finished.wide, &output, &files, out)
+    let claims_missed = print(&report, plan, finished.wide, &output, &files, out)?;
+    let hopeless = hopeless(&report);
+    hopeless.iter().for_each(|text| note(text));
+    Ok(Judgement {
+        claims_missed,
+        failed: !hopeless.is_empty() || !report.calibration.holds || report.verdicts.iter().any(|v| !v.met),
+    })
+}
+
+/// What the statistics made of a case whose answers are known.
+fn calibration(tried: &Calibration) -> String {
+    let outside: Vec<&str> = tried
+        .checks
+        .iter()
+        .filter(|c| !c.holds())
+        .map(|c| c.statistic)
+        .collect();
+    let inside = format!(
+        "Calibration: {} of {} statistics of a matched linear filter inside their bounds, {} runs",
+        tried.checks.len() - outside.len(),
+        tried.checks.len(),
+        tried.runs
+    );
+    if outside.is_empty() {
+        inside
+    } else {
+        format!("{inside}; outside: {}", outside.join(", "))
+    }
+}
+
+/// A line for each filter that has no result in any run.
+fn hopeless(report: &Report<'_>) -> Vec<String> {
+    let without = |row: &&Summary| row.runs > 0 && row.failed as u64 == u64::from(row.runs);
+    let told = report.rows.iter().filter(without).map(|row| {
+        format!(
+            "failed: {} in {}, case {}: none of its {} runs has a result; failures.csv says why",
+            row.filter, row.scenario, row.case, row.runs
+        )
+    });
+    told.collect()
 }
 
 fn print(
@@ -139,7 +188,13 @@ fn print(
         missed |= verdicts.iter().any(|v| !v.holds());
         out.say("")?;
     }
+    if !report.verdicts.is_empty() {
+        out.say(&format!("Requirements\n{}\n", requirements::render(&report.verdicts)))?;
+    }
+    out.say(&calibration(&report.calibration))?;
     out.tell("studies", told)?;
+    out.tell("requirements", &report.verdicts)?;
+    out.tell("calibration", &report.calibration)?;
     closing(folder, files, out)?;
     Ok(missed)
 }

@@ -71,10 +71,14 @@ pub(super) fn merge(args: &MergeArgs, out: &mut Out<'_>) -> Result<Verdict, Harn
         page: plan.output.report,
         wide: args.wide,
     };
-    finish(folder, finished, &models, &plan, out)?;
+    let judged = finish(folder, finished, &models, &plan, out)?;
     let shards = args.dir.join(SHARDS);
     fs::remove_dir_all(&shards).map_err(|source| HarnessError::Write { path: shards, source })?;
-    Ok(Verdict::Done)
+    Ok(if judged.failed {
+        Verdict::BoundsMissed
+    } else {
+        Verdict::Done
+    })
 }
 
 fn folders(path: &Path) -> Vec<PathBuf> {

@@ -15,6 +15,7 @@ use crate::cli::{BuildArgs, StudyArgs, WorkArgs, WorldArgs};
 use crate::output::OutputFolder;
 use crate::pack::{default_folder, fmu_path};
 use crate::report::manifest::peak_memory_mib;
+use crate::requirements::check;
 use crate::tuning::sets::{TunedFile, add};
 
 /// Exit code of a command that was asked to stop.
@@ -110,6 +111,7 @@ pub(super) fn cast(plan: &Plan, models: &Models, folder: &Path) -> Result<Vec<St
             studies.push(models.study(&case, world)?);
         }
     }
+    check(&plan.requirements, &studies)?;
     Ok(studies)
 }
 

@@ -77,6 +77,11 @@ pub(crate) const fn number<T>(
 }
 
 impl<T> Column<T> {
+    /// Whether its cells are text.
+    pub(crate) fn is_text(&self) -> bool {
+        matches!(self.get, Get::Text(_))
+    }
+
     /// The cell of a row.
     pub fn cell<'a>(&self, row: &'a T) -> Cell<'a> {
         match self.get {

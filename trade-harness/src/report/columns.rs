@@ -1,16 +1,22 @@
 //! The documentation of every CSV file, from the lists that write them.
 
 use super::column::FileColumns;
-use super::{best, runs, searched, summary, timing};
+use super::{best, phases, runs, searched, summary, timing};
 
 /// The columns of every file that has the same ones in each study.
 pub fn all() -> Vec<FileColumns> {
     vec![
         FileColumns::new("summary.csv", "a world, filter and case", summary::COLUMNS),
+        FileColumns::new("phases.csv", "a world, filter, case and phase", phases::COLUMNS),
+        FileColumns::new(
+            "requirements.csv",
+            "a requirement and what it is asked of, in studies that have any",
+            crate::requirements::COLUMNS,
+        ),
         FileColumns::new("runs.csv", "a run of a filter", runs::RUNS),
         FileColumns::new(
             "paired.csv",
-            "a filter and a quantity, in the runs it shares with the first filter",
+            "a pair of filters and a quantity, in the runs that both have a result of",
             runs::PAIRED,
         ),
         FileColumns::new("failures.csv", "a run without a result", runs::FAILURES),

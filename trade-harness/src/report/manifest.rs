@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::{Duration, SystemTime};
 
 use serde::Serialize;
-use study::{Model, Models, Participant, Plan, Study, scheme_name};
+use study::{Calibration, Model, Models, Participant, Plan, Study, scheme_name};
 
 use crate::HarnessError;
 use crate::format::json_bytes;
@@ -24,6 +24,9 @@ pub struct Manifest {
     pub models: BTreeMap<String, ModelFacts>,
     /// Each world.
     pub studies: Vec<StudyFacts>,
+    /// What the statistics made of a case whose answers are known; of a command that tries them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub calibration: Option<Calibration>,
     /// Files written beside the manifest.
     pub files: Vec<String>,
     /// What differs from one repeat to the next.
@@ -184,6 +187,7 @@ impl Manifest {
         Self {
             harness_version: env!("CARGO_PKG_VERSION"),
             identity: None,
+            calibration: None,
             models: models.all().map(|m| (m.name.clone(), ModelFacts::new(m))).collect(),
             studies,
             files: Vec::new(),

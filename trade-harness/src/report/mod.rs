@@ -9,6 +9,7 @@ pub mod columns;
 pub mod epochs;
 pub mod manifest;
 pub(crate) mod measured;
+pub mod phases;
 pub mod runs;
 pub mod searched;
 pub mod summary;

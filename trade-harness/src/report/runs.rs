@@ -1,7 +1,6 @@
 //! `runs.csv`, `failures.csv` and `paired.csv`: run by run, and filter against filter in the same runs.
 
-use stats::{PairedDifference, paired_difference};
-use study::{FilterResult, RunRow, Spec};
+use study::{FilterResult, Pair, Quantity, RunRow, Spec, pairs};
 
 use super::column::{self, Column, count, number, text};
 use crate::HarnessError;
@@ -35,7 +34,7 @@ pub(crate) const RUNS: &[Column<Line>] = &[
     count("failed", "1 when the run has no result", |l| {
         Some(l.run.failure.is_some().into())
     }),
-    count("diverged", "1 when the target was lost", |l| {
+    count("diverged", "1 when the target was lost, be it before it failed", |l| {
         Some(l.run.diverged.into())
     }),
     number(
@@ -97,67 +96,79 @@ pub fn render_failures(studies: &[Named<'_>]) -> Result<Vec<u8>, HarnessError> {
     column::render(FAILURES, &failed)
 }
 
-/// A filter against the first one, in the runs that both have a result of.
+/// A filter against another, in the runs that both have a result of.
 #[derive(Debug, Clone)]
-pub(crate) struct Pair {
+pub(crate) struct Against {
     scenario: String,
     filter: String,
     reference: String,
     case: String,
-    quantity: &'static str,
-    difference: PairedDifference,
+    pair: Pair,
 }
 
-pub(crate) const PAIRED: &[Column<Pair>] = &[
+pub(crate) const PAIRED: &[Column<Against>] = &[
     text("scenario", "world", |p| p.scenario.as_str().into()),
     text("filter", "filter with its preset", |p| p.filter.as_str().into()),
-    text("reference", "first filter of the study", |p| {
+    text("reference", "filter it is held against, earlier in the study", |p| {
         p.reference.as_str().into()
     }),
     text("case", "case", |p| p.case.as_str().into()),
-    text("quantity", "column of runs.csv, which names the unit", |p| {
-        p.quantity.into()
+    text("quantity", "column of summary.csv, which names the unit", |p| {
+        quantity(p.pair.quantity).into()
     }),
-    count("runs", "runs with a result of both", |p| Some(p.difference.runs as u64)),
+    count("runs", "runs with a result of both", |p| {
+        Some(p.pair.by_run.runs as u64)
+    }),
     number(
         "mean_difference",
         "of quantity",
-        "mean over the runs of filter minus reference",
-        |p| Some(p.difference.mean),
+        "mean over the runs of each run's RMSE, filter minus reference",
+        |p| Some(p.pair.by_run.mean),
     ),
     number("standard_error", "of quantity", "standard error of that mean", |p| {
-        p.difference.standard_error
+        p.pair.by_run.standard_error
+    }),
+    number(
+        "difference",
+        "of quantity",
+        "RMSE pooled over those runs, filter minus reference",
+        |p| Some(p.pair.difference),
+    ),
+    number(
+        "low",
+        "of quantity",
+        "lower end of the 95 % interval of difference, from 1000 draws of the same runs for both; empty below 5 runs",
+        |p| p.pair.interval.map(|[low, _]| low),
+    ),
+    number("high", "of quantity", "upper end of it", |p| {
+        p.pair.interval.map(|[_, high]| high)
     }),
 ];
 
-/// Contents of `paired.csv`: mean over the runs of RMSE minus that of the first filter, with its standard error.
-///
-/// Only runs with a result of both take part.
+/// Name of its RMSE; pairs are of motion alone.
+fn quantity(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Position => "pos_rmse_m",
+        Quantity::Velocity => "vel_rmse_m_s",
+        _ => "acc_rmse_m_s2",
+    }
+}
+
+/// Contents of `paired.csv`: every pair of filters of a study, in the runs that both have a result of.
 ///
 /// # Errors
 /// [`HarnessError::Csv`].
 pub fn render_paired(studies: &[Named<'_>]) -> Result<Vec<u8>, HarnessError> {
-    let mut pairs = Vec::new();
+    let mut lines = Vec::new();
     for s in studies {
-        let Some((reference, others)) = s.filters.split_first() else {
-            continue;
-        };
-        for other in others {
-            for (index, quantity) in ["pos_rmse_m", "vel_rmse_m_s", "acc_rmse_m_s2"].into_iter().enumerate() {
-                let both = |(a, b): (&RunRow, &RunRow)| Option::zip(a.rmse[index], b.rmse[index]);
-                let (first, second): (Vec<_>, Vec<_>) = other.runs.iter().zip(&reference.runs).filter_map(both).unzip();
-                if let Some(difference) = paired_difference(&first, &second)? {
-                    pairs.push(Pair {
-                        scenario: s.spec.world.name.clone(),
-                        filter: other.label.clone(),
-                        reference: reference.label.clone(),
-                        case: s.case.to_owned(),
-                        quantity,
-                        difference,
-                    });
-                }
-            }
-        }
+        let label = |filter: usize| s.filters[filter].label.clone();
+        lines.extend(pairs(s.filters)?.into_iter().map(|pair| Against {
+            scenario: s.spec.world.name.clone(),
+            filter: label(pair.filter),
+            reference: label(pair.reference),
+            case: s.case.to_owned(),
+            pair,
+        }));
     }
-    column::render(PAIRED, &pairs)
+    column::render(PAIRED, &lines)
 }

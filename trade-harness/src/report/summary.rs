@@ -16,7 +16,11 @@ pub const COLUMNS: &[Column<Summary>] = &[
         "runs that ended with an error; they take no part in the statistics",
         |s| Some(s.failed as u64),
     ),
-    count("diverged", "runs that lost the target", |s| Some(s.diverged as u64)),
+    count(
+        "diverged",
+        "runs that lost the target, those included that then failed",
+        |s| Some(s.diverged as u64),
+    ),
     number(
         "pos_rmse_m",
         "m",
@@ -56,7 +60,7 @@ pub const COLUMNS: &[Column<Summary>] = &[
     number(
         "mean_err_sigma",
         "1",
-        "mean error over its standard error, rms over time and axes; about 1 when unbiased",
+        "mean error of position and velocity over its standard error (sample sigma about the mean over root N), rms over time and axes; about 1 when unbiased; empty below 5 runs",
         |s| s.mean_error_sigma,
     ),
     number("nees", "1", "mean NEES over its dimension; 1 when consistent", |s| {
@@ -302,6 +306,57 @@ pub const COLUMNS: &[Column<Summary>] = &[
     number("nees6_se", "1", "standard error of nees6 over the runs", |s| {
         s.nees6.error
     }),
+    number(
+        "mean_err_bound",
+        "1",
+        "value that mean_err_sigma exceeds in 5 % of studies by chance alone, from 199 random flips of the signs of whole runs at up to 256 epochs; empty below 6 runs",
+        |s| s.mean_error_bound,
+    ),
+    number(
+        "mean_err_sigma_about_zero",
+        "1",
+        "mean_err_sigma with the sample sigma about zero, Eqs. (31) and (32) of Mamich and Zanetti: never above root N",
+        |s| s.mean_error_sigma_about_zero,
+    ),
+    number(
+        "pos_rmse_low_m",
+        "m",
+        "lower end of the 95 % interval of pos_rmse_m, from 1000 draws of the runs; empty below 5 runs",
+        |s| s.position.interval.map(|[low, _]| low),
+    ),
+    number("pos_rmse_high_m", "m", "upper end of it", |s| {
+        s.position.interval.map(|[_, high]| high)
+    }),
+    number(
+        "vel_rmse_low_m_s",
+        "m/s",
+        "lower end of the 95 % interval of vel_rmse_m_s",
+        |s| s.velocity.interval.map(|[low, _]| low),
+    ),
+    number("vel_rmse_high_m_s", "m/s", "upper end of it", |s| {
+        s.velocity.interval.map(|[_, high]| high)
+    }),
+    number(
+        "acc_rmse_low_m_s2",
+        "m/s2",
+        "lower end of the 95 % interval of acc_rmse_m_s2",
+        |s| s.acceleration.interval.map(|[low, _]| low),
+    ),
+    number("acc_rmse_high_m_s2", "m/s2", "upper end of it", |s| {
+        s.acceleration.interval.map(|[_, high]| high)
+    }),
+    number("nees_mean_low", "1", "lower end of the 95 % interval of nees", |s| {
+        s.nees_interval.map(|[low, _]| low)
+    }),
+    number("nees_mean_high", "1", "upper end of it", |s| {
+        s.nees_interval.map(|[_, high]| high)
+    }),
+    count(
+        "rank_pos",
+        "group by pos_rmse_m, 1 the best: with its best filter are those whose paired difference to it has an interval that holds 0",
+        |s| s.ranks[0].map(u64::from),
+    ),
+    count("rank_vel", "the same by vel_rmse_m_s", |s| s.ranks[1].map(u64::from)),
 ];
 
 /// The number in a column; `None` where the cell is empty, holds text or does not exist.

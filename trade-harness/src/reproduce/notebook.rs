@@ -79,7 +79,7 @@ impl Notebook {
         request: &Request,
     ) -> Result<StudyResult, HarnessError> {
         let (plan, study, result) = laboratory.study(request)?;
-        let (rows, timings) = measured(&study, &result, None);
+        let (rows, timings) = measured(&study, &result, None)?;
         self.rows.extend(rows);
         self.timings.extend(timings);
         self.studies.push(StudyFacts::new(&plan, &study));

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use cosim::{BaseType, Causality, Port, Scheme, Slave, SlaveError};
-use study::{Axes, Frame, Participant, SlaveSource, Spec, StatusItems, StudyError, World};
+use study::{Axes, Frame, Participant, Phases, SlaveSource, Spec, StatusItems, StudyError, World};
 
 /// 40 samples of 1 s, scored from the eleventh.
 pub fn world() -> World {
@@ -145,9 +145,11 @@ fn participant(label: &str, truth: bool, quirk: Quirk) -> Participant {
 
 /// A study of these filters in the mock world.
 pub fn spec(truth: Quirk, filters: &[(&str, Quirk)]) -> Spec {
+    let truth = participant("fmu-truth", true, truth);
     Spec {
+        phases: Phases::new(&world(), &truth, &[]).unwrap(),
         world: world(),
-        truth: participant("fmu-truth", true, truth),
+        truth,
         filters: filters
             .iter()
             .map(|(label, quirk)| participant(label, false, *quirk))

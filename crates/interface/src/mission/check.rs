@@ -764,12 +764,23 @@ impl Check {
         }
         self.unique("study.phase", study.phases.iter().map(|p| p.name.as_str()));
         for phase in &study.phases {
-            if !(0.0 <= phase.from_s && phase.from_s < phase.to_s && phase.to_s <= mission.time.duration_s) {
+            let place = format!("study.phase.{}", phase.name);
+            let ends = [phase.from_s, phase.to_s];
+            if let Err(problem) = phase.check() {
+                self.say(place, format!("phase {problem}"));
+            } else if ends.iter().flatten().any(|t| *t > mission.time.duration_s) {
                 let what = format!(
                     "phase {:?}: from_s and to_s must lie in order within the run, 0 to {} s",
                     phase.name, mission.time.duration_s
                 );
-                self.say(format!("study.phase.{}", phase.name), what);
+                self.say(place, what);
+            } else if phase.vents.is_some() && mission.navigation.frame == Frame::Lvlh {
+                // There the true acceleration is what Clohessy-Wiltshire leaves out, and never nothing.
+                let what = format!(
+                    "phase {:?}: vents is not known with navigation.frame = \"lvlh\"; give times with from_s and to_s",
+                    phase.name
+                );
+                self.say(place, what);
             }
         }
     }

@@ -42,14 +42,73 @@ pub enum ResultAxes {
     Lvlh,
 }
 
-/// A named part of the run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// A named part of the run: the epochs at which every condition given holds. `scored` (the scored time) and, with vents, `vents`
+/// and `quiet` are always there.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Phase {
-    /// Name.
+    /// Name: letters, digits, `_` and `-`.
     pub name: String,
-    /// Begin, s.
-    pub from_s: f64,
-    /// End, s.
-    pub to_s: f64,
+    /// Begin, s; absent: `time.scored_from_s`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from_s: Option<f64>,
+    /// End, s; that epoch counts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to_s: Option<f64>,
+    /// Least true distance between the vehicles, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub range_from_m: Option<f64>,
+    /// Largest true distance between the vehicles, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub range_to_m: Option<f64>,
+    /// Whether an acceleration of the target that no filter is told of acts: by vents, or by its burns.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub vents: Option<bool>,
+    /// Only this long after the end of a burn of either vehicle, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub after_burn_s: Option<f64>,
+}
+
+impl Phase {
+    /// Names that are always there.
+    pub const OWN: [&'static str; 3] = ["scored", "vents", "quiet"];
+
+    /// Checks what no type does.
+    ///
+    /// # Errors
+    /// What is wrong and what is allowed.
+    pub fn check(&self) -> Result<(), String> {
+        let Self {
+            name,
+            from_s,
+            to_s,
+            range_from_m,
+            range_to_m,
+            vents,
+            after_burn_s,
+        } = self;
+        if Self::OWN.contains(&name.as_str()) {
+            return Err(format!("'{name}' is always there; give another name"));
+        }
+        let numbers = [from_s, to_s, range_from_m, range_to_m, after_burn_s];
+        if let Some(bad) = numbers.into_iter().flatten().find(|x| !(x.is_finite() && **x >= 0.0)) {
+            return Err(format!("'{name}' has a {bad}: give finite numbers, 0 or more"));
+        }
+        if numbers.iter().all(|x| x.is_none()) && vents.is_none() {
+            return Err(format!(
+                "'{name}' has no condition: give from_s, to_s, range_from_m, range_to_m, vents or after_burn_s"
+            ));
+        }
+        for (low, high, unit, names) in [
+            (from_s, to_s, "s", "from_s < to_s"),
+            (range_from_m, range_to_m, "m", "range_from_m < range_to_m"),
+        ] {
+            if let (Some(low), Some(high)) = (low, high)
+                && low >= high
+            {
+                return Err(format!("'{name}' from {low} to {high} {unit} is empty: give {names}"));
+            }
+        }
+        Ok(())
+    }
 }

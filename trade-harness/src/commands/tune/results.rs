@@ -69,7 +69,7 @@ impl Done {
         args: &TuneArgs,
         options: &Options,
     ) -> Result<Vec<String>, HarnessError> {
-        let report = Report::new(&self.studies, &self.results, &[]);
+        let report = Report::new(&[], &self.studies, &self.results, &[])?;
         let rankings = self.rankings(&report, options);
         let more = vec![
             ("best.csv".to_owned(), best::render(&rankings)?),
@@ -103,7 +103,7 @@ impl Done {
         files: &[String],
         out: &mut Out<'_>,
     ) -> Result<Verdict, HarnessError> {
-        let report = Report::new(&self.studies, &self.results, &[]);
+        let report = Report::new(&[], &self.studies, &self.results, &[])?;
         for (contest, ranking) in self.contests.iter().zip(self.rankings(&report, options)) {
             let heading = heading(&contest.world, args);
             out.say(&format!(

@@ -1,0 +1,203 @@
+//! Named parts of a run: which epochs belong to which.
+
+use cosim::Value;
+use interface::mission::Phase;
+
+use crate::error::StudyError;
+use crate::participant::Participant;
+use crate::samples::{SAME_TIME, TruthSample};
+use crate::world::{Frame, World};
+
+/// Most phases of a world: a bit each in a record.
+const MOST: usize = 32;
+
+/// The phases of one world; the first is the scored time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Phases {
+    rules: Vec<Phase>,
+    scored_from_s: f64,
+    burn_ends: Vec<f64>,
+}
+
+impl Phases {
+    /// The scored time, vents and quiet where the mission has vents, then the mission's and the plan's own.
+    ///
+    /// * `truth`: whose extra burn of the target counts among the burns.
+    ///
+    /// # Errors
+    /// [`StudyError::Plan`] for a name that stands twice, too many, or vents where nobody knows of them.
+    pub fn new(world: &World, truth: &Participant, own: &[Phase]) -> Result<Self, StudyError> {
+        let wrong = |problem: String| StudyError::Plan {
+            field: "phase",
+            problem,
+        };
+        let [scored, vents, quiet] = Phase::OWN.map(|name| Phase {
+            name: name.to_owned(),
+            ..Phase::default()
+        });
+        let told_of_vents = world.frame == Frame::Inertial;
+        let mut rules = vec![scored];
+        if told_of_vents && !world.mission.vents.is_empty() {
+            rules.extend([(vents, true), (quiet, false)].map(|(phase, acts)| Phase {
+                vents: Some(acts),
+                ..phase
+            }));
+        }
+        rules.extend(world.mission.study.phases.iter().chain(own).cloned());
+        for (place, phase) in rules.iter().enumerate() {
+            if rules[..place].iter().any(|other| other.name == phase.name) {
+                let text = format!("'{}' stands twice in {} and the study", phase.name, world.name);
+                return Err(wrong(text));
+            }
+            if phase.vents.is_some() && !told_of_vents {
+                let text = format!(
+                    "'{}' asks for vents, which are not known in {}, whose frame is lvlh; give times with from_s and to_s",
+                    phase.name, world.name
+                );
+                return Err(wrong(text));
+            }
+        }
+        if rules.len() > MOST {
+            return Err(wrong(format!(
+                "there are {} in {}; {MOST} are the most",
+                rules.len(),
+                world.name
+            )));
+        }
+        let real = |name: &str| match truth.start(name) {
+            Some(Value::Real(x)) => *x,
+            _ => 0.0,
+        };
+        let mut burn_ends: Vec<f64> = world.mission.burns.iter().map(|b| b.start_s + b.duration_s).collect();
+        let extra = real("target_burn.duration");
+        if extra > 0.0 {
+            burn_ends.push(real("target_burn.start") + extra);
+        }
+        Ok(Self {
+            rules,
+            scored_from_s: world.scored_from_s,
+            burn_ends,
+        })
+    }
+
+    /// Their conditions, in order.
+    pub fn rules(&self) -> &[Phase] {
+        &self.rules
+    }
+
+    /// Which of them an epoch belongs to: bit k for the k-th.
+    pub fn of(&self, truth: &TruthSample) -> u32 {
+        let bits = self.rules.iter().enumerate();
+        bits.fold(0, |mask, (bit, rule)| mask | u32::from(self.holds(rule, truth)) << bit)
+    }
+
+    fn holds(&self, rule: &Phase, truth: &TruthSample) -> bool {
+        let time = truth.time;
+        let range = truth.position.norm();
+        let acts = |wanted: bool| truth.acceleration.is_some_and(|a| (a.norm() > 0.0) == wanted);
+        let after = |length: f64| {
+            let since = |end: &f64| (-SAME_TIME..=length + SAME_TIME).contains(&(time - end));
+            self.burn_ends.iter().any(since)
+        };
+        time >= rule.from_s.unwrap_or(self.scored_from_s) - SAME_TIME
+            && rule.to_s.is_none_or(|to| time <= to + SAME_TIME)
+            && rule.range_from_m.is_none_or(|from| range >= from)
+            && rule.range_to_m.is_none_or(|to| range <= to)
+            && rule.vents.is_none_or(acts)
+            && rule.after_burn_s.is_none_or(after)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::samples::StatusItems;
+    use crate::worlds;
+    use nalgebra::Vector3;
+    use std::sync::Arc;
+
+    fn participant(starts: &[(&str, f64)]) -> Participant {
+        #[derive(Debug)]
+        struct Nobody;
+        impl crate::participant::SlaveSource for Nobody {
+            fn create(&self, _: &str) -> Result<Box<dyn cosim::Slave>, StudyError> {
+                Err(StudyError::NoWorld)
+            }
+        }
+        Participant {
+            label: "fmu-truth".to_owned(),
+            model: "fmu-truth".to_owned(),
+            source: Arc::new(Nobody),
+            aliases: Vec::new(),
+            starts: starts.iter().map(|(n, v)| ((*n).to_owned(), Value::Real(*v))).collect(),
+            varied: Vec::new(),
+            statuses: StatusItems::default(),
+            record: Vec::new(),
+        }
+    }
+
+    fn phase(text: &str) -> Phase {
+        toml::from_str(text).unwrap()
+    }
+
+    /// Which epochs of 1 s the phase holds, of a target that vents from 500 to 509 s and goes away by 1 m/s.
+    fn epochs(phases: &Phases, name: &str) -> Vec<u32> {
+        let bit = phases.rules().iter().position(|r| r.name == name).unwrap();
+        let sample = |t: u32| TruthSample {
+            time: f64::from(t),
+            position: Vector3::new(0.0, f64::from(t), 0.0),
+            acceleration: Some(Vector3::x() * f64::from(u8::from((500..510).contains(&t)))),
+            ..TruthSample::default()
+        };
+        (1..=1000)
+            .filter(|t| phases.of(&sample(*t)) & (1 << bit) != 0)
+            .collect()
+    }
+
+    #[test]
+    fn epochs_are_those_at_which_every_condition_holds() {
+        let world = worlds::find("leo_venting").unwrap();
+        let own = [
+            phase("name = \"begin\"\nfrom_s = 0.0\nto_s = 20.0"),
+            phase("name = \"near\"\nrange_to_m = 400.0"),
+            phase("name = \"far_vents\"\nrange_from_m = 505.0\nvents = true"),
+            phase("name = \"after\"\nafter_burn_s = 5.0"),
+        ];
+        let burn = participant(&[("target_burn.start", 600.0), ("target_burn.duration", 10.0)]);
+        let phases = Phases::new(&world, &burn, &own).unwrap();
+        assert_eq!(epochs(&phases, "scored"), (300..=1000).collect::<Vec<_>>());
+        assert_eq!(epochs(&phases, "vents"), (500..510).collect::<Vec<_>>());
+        assert_eq!(epochs(&phases, "quiet").len(), 691);
+        assert_eq!(epochs(&phases, "begin"), (1..=20).collect::<Vec<_>>());
+        assert_eq!(epochs(&phases, "near"), (300..=400).collect::<Vec<_>>());
+        assert_eq!(epochs(&phases, "far_vents"), (505..510).collect::<Vec<_>>());
+        let after = epochs(&phases, "after");
+        assert!((610..=615).all(|t| after.contains(&t)) && !after.contains(&609) && !after.contains(&616));
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused() {
+        let leo = worlds::find("leo_venting").unwrap();
+        let formation = worlds::find("formation").unwrap();
+        let truth = participant(&[]);
+        let late = phase("name = \"late\"\nfrom_s = 900.0");
+        for (world, own, says) in [
+            (&leo, vec![late.clone(), late.clone()], "twice"),
+            (&formation, vec![phase("name = \"v\"\nvents = true")], "lvlh"),
+            (
+                &leo,
+                (0..40)
+                    .map(|i| Phase {
+                        name: format!("p{i}"),
+                        ..late.clone()
+                    })
+                    .collect(),
+                "32",
+            ),
+        ] {
+            let error = Phases::new(world, &truth, &own).unwrap_err().to_string();
+            assert!(error.contains(says), "{error}");
+        }
+        assert!(Phases::new(&formation, &truth, &[late]).unwrap().rules().len() == 2);
+    }
+}
