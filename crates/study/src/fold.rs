@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use stats::{Ensemble, ScalarEnsemble};
 
 use crate::error::StudyError;
+use crate::kept::{KEPT_RUNS, KeptRun};
 use crate::record::{QUANTITIES, Quantity, Record};
 use crate::run::{Ending, Failure, SlaveTime};
 use crate::spec::Spec;
@@ -66,6 +67,8 @@ pub struct FilterResult {
     pub first_scored: usize,
     /// Time taken.
     pub timing: Timing,
+    /// Thinned errors of the first runs that did not fail.
+    pub kept: Vec<KeptRun>,
     epochs: usize,
 }
 
@@ -85,6 +88,7 @@ impl FilterResult {
             covariances_broken: 0,
             first_scored,
             timing: Timing::default(),
+            kept: Vec::new(),
             epochs,
         }
     }
@@ -111,6 +115,9 @@ impl FilterResult {
         if row.failure.is_none() {
             for record in records {
                 self.fold_record(record)?;
+            }
+            if self.kept.len() < KEPT_RUNS {
+                self.kept.push(KeptRun::new(row.run, records, self.epochs));
             }
         }
         self.runs.push(row);

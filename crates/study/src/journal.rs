@@ -13,7 +13,7 @@ use crate::error::StudyError;
 use crate::outcome::Outcome;
 
 /// Begins a file; the number is that of the format.
-const HEAD: &[u8; 8] = b"rnt-run\x01";
+const HEAD: &[u8; 8] = b"rnt-run\x02";
 /// Begins a frame.
 const MARK: [u8; 4] = *b"run:";
 /// Mark, length and checksum.
@@ -210,6 +210,7 @@ mod tests {
             run,
             steps: 7,
             truth_time: SlaveTime::default(),
+            path: Vec::new(),
             parts: vec![Part {
                 row: RunRow::new(run, &[record], 0, &Ending::default()),
                 records: vec![record],
