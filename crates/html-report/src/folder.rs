@@ -73,6 +73,8 @@ pub(crate) struct Folder {
     runs: Vec<Row>,
     paired: Vec<Row>,
     failures: Vec<Row>,
+    phases: Vec<Row>,
+    requirements: Vec<Row>,
 }
 
 impl Folder {
@@ -101,6 +103,12 @@ impl Folder {
                 &["scenario", "filter", "quantity", "mean_difference"],
             )?,
             failures: table(path, "failures.csv", &["scenario", "filter", "run", "message"])?,
+            phases: table_if_there(
+                path,
+                "phases.csv",
+                &["scenario", "filter", "case", "phase", "pos_rmse_m"],
+            )?,
+            requirements: table_if_there(path, "requirements.csv", &["scenario", "filter", "metric", "verdict"])?,
         })
     }
 
@@ -122,9 +130,35 @@ impl Folder {
         self.failures.iter().filter(|r| r.is_of(study)).collect()
     }
 
-    /// Header and rows of the file over time of a filter; `None` when the folder came without it.
+    pub fn phases(&self, study: &StudyFacts) -> Vec<&Row> {
+        self.phases.iter().filter(|r| r.is_of(study)).collect()
+    }
+
+    pub fn requirements(&self, study: &StudyFacts) -> Vec<&Row> {
+        self.requirements.iter().filter(|r| r.is_of(study)).collect()
+    }
+
+    /// Rows of `summary.csv` of a world, in all cases.
+    pub fn cases(&self, scenario: &str) -> Vec<&Row> {
+        self.summary.iter().filter(|r| r.text("scenario") == scenario).collect()
+    }
+
+    /// The file over time of a filter; `None` when the folder came without it.
     pub fn epochs(&self, study: &StudyFacts, filter: &str) -> Result<Option<Epochs>, ReportError> {
-        let name = format!("epochs/{}_{filter}_{}.csv", study.scenario, study.case);
+        self.over_time(&format!("epochs/{}_{filter}_{}.csv", study.scenario, study.case))
+    }
+
+    /// The errors of single runs of a filter.
+    pub fn run_errors(&self, study: &StudyFacts, filter: &str) -> Result<Option<Epochs>, ReportError> {
+        self.over_time(&format!("run_errors/{}_{filter}_{}.csv", study.scenario, study.case))
+    }
+
+    /// The true path of run 0.
+    pub fn path(&self, study: &StudyFacts) -> Result<Option<Epochs>, ReportError> {
+        self.over_time(&format!("paths/{}_{}.csv", study.scenario, study.case))
+    }
+
+    fn over_time(&self, name: &str) -> Result<Option<Epochs>, ReportError> {
         let path = self.path.join(name);
         let wrong = |source| ReportError::Table {
             path: path.clone(),
@@ -168,6 +202,15 @@ fn contents(folder: &Path, name: &'static str) -> Result<Vec<u8>, ReportError> {
         },
         _ => ReportError::Read { path, source },
     })
+}
+
+/// No rows where there is no file.
+fn table_if_there(folder: &Path, name: &'static str, needed: &[&'static str]) -> Result<Vec<Row>, ReportError> {
+    if folder.join(name).is_file() {
+        table(folder, name, needed)
+    } else {
+        Ok(Vec::new())
+    }
 }
 
 fn table(folder: &Path, name: &'static str, needed: &[&'static str]) -> Result<Vec<Row>, ReportError> {

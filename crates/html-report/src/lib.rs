@@ -1,20 +1,25 @@
 //! One self-contained HTML page from the folder of a study.
 //!
 //! The page is made of the files alone (`manifest.json`, `summary.csv`, `runs.csv`, `paired.csv`, `failures.csv`,
-//! `epochs/*.csv`), so that a folder that somebody has sent gives the same page. It asks no host for anything.
+//! `epochs/*.csv`, and where they are there `run_errors/*.csv`, `paths/*.csv`, `phases.csv`, `requirements.csv`), so that a folder that somebody has sent gives the same page. It asks no host for anything.
 //!
 //! Start reading at [`html`]; [`Verdict`] says which filter is best and how surely, [`drawn`] draws the same figures as
-//! files. Inside, `figures` gathers what is drawn, `series` thins curves over time, and `page` fills the template.
+//! files. Inside, `figures` gathers what is drawn, `series` thins curves over time, `window` sums what
+//! the page makes errors of any stretch of time of, `pack` writes numbers short, and `page` fills the template.
 
 mod drawn;
 mod error;
 mod events;
 mod figures;
 mod folder;
+mod kept;
+mod matrix;
 mod number;
+mod pack;
 mod page;
 mod series;
 mod verdict;
+mod window;
 
 use std::path::Path;
 

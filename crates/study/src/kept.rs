@@ -61,11 +61,20 @@ impl KeptRun {
 fn extremes(records: &[Record], quantity: Quantity) -> [Vector3<f64>; 2] {
     let mut found = [Vector3::repeat(f64::NAN); 2];
     for axis in 0..3 {
-        let errors = || records.iter().filter_map(|r| Some(r.error(quantity)?[axis])).enumerate();
+        let errors = || {
+            records
+                .iter()
+                .filter_map(|r| Some(r.error(quantity)?[axis]))
+                .enumerate()
+        };
         let least = errors().min_by(|a, b| a.1.total_cmp(&b.1));
         let greatest = errors().max_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((least, greatest)) = least.zip(greatest) {
-            let in_order = if least.0 <= greatest.0 { [least, greatest] } else { [greatest, least] };
+            let in_order = if least.0 <= greatest.0 {
+                [least, greatest]
+            } else {
+                [greatest, least]
+            };
             (found[0][axis], found[1][axis]) = (in_order[0].1, in_order[1].1);
         }
     }
@@ -104,7 +113,9 @@ impl Path {
         if !truth.epoch.is_multiple_of(self.every) || self.points.last().is_some_and(|p| p.epoch >= epoch) {
             return;
         }
-        let Some(axes) = spec.world.axes.matrix(truth) else { return };
+        let Some(axes) = spec.world.axes.matrix(truth) else {
+            return;
+        };
         let sign = match spec.world.frame {
             Frame::Inertial => -1.0,
             Frame::Lvlh => 1.0,

@@ -7,7 +7,11 @@ use crate::format::csv_bytes;
 
 /// Five digits: what is thinned for figures needs no more.
 fn short(value: f64) -> String {
-    if value.is_finite() { format!("{value:.4e}") } else { String::new() }
+    if value.is_finite() {
+        format!("{value:.4e}")
+    } else {
+        String::new()
+    }
 }
 
 /// Contents of the file of a filter: two rows for each run and stretch of time (a hundredth of a run), axis by axis the least
