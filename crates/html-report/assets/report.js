@@ -707,8 +707,8 @@
   themeButton.addEventListener("click", () => { dark = !dark; dress(dark); });
   prefersDark.addEventListener("change", (event) => { dark = event.matches; dress(dark); });
   // Paper is white.
-  addEventListener("beforeprint", () => dress(false));
-  addEventListener("afterprint", () => dress(dark));
+  addEventListener("beforeprint", () => { root.dataset.print = ""; dress(false); });
+  addEventListener("afterprint", () => { delete root.dataset.print; dress(dark); });
   let width = innerWidth;
   addEventListener("resize", () => {
     resize();
