@@ -216,10 +216,15 @@ fn figures_are_written_as_svg_and_png() {
     for (name, shows) in [
         (
             "error_snc",
-            &["position, r [m]", "velocity, n [m/s]", "time [s]", "mean error"][..],
+            &["position, r [m]", "velocity, n [m/s]", "time [s]", "mean error", "single runs"][..],
         ),
         ("consistency", &["NEES / states [1]", "NIS / rows [1]", "snc"]),
-        ("paired_position", &["minus that of fixed_q", "[m]", "milton", "snc"]),
+        (
+            "paired_position",
+            &["difference of position RMSE", "[m]", "milton − fixed_q", "snc − fixed_q"],
+        ),
+        ("process_noise", &["root of q, x [m/s^2.5]", "time [s]", "milton"]),
+        ("path", &["true path of run 0", "t [m]", "r [m]"]),
         (
             "runs_velocity",
             &["velocity RMSE of a run [m/s]", "share of runs", "fixed_q"],
@@ -282,10 +287,11 @@ addEventListener("load", () => setTimeout(async () => {
   note("hidden", before - curves());
   // A drag over the first plot zooms all of its figure; a double click resets them.
   const spans = () => [...figure("errors").querySelectorAll(".plots > div")].map((d) => Math.round(d.dataset.to - d.dataset.from));
+  const wait = () => new Promise((done) => setTimeout(done, 200));
+  // A plot finds its place only after the script that made it.
+  await wait();
   const over = figure("errors").querySelector(".u-over"), box = over.getBoundingClientRect();
   const mouse = (kind, part, target) => target.dispatchEvent(new MouseEvent(kind, { bubbles: true, button: 0, clientX: box.left + part * box.width, clientY: box.top + 0.5 * box.height, movementX: 5, movementY: 5 }));
-  const wait = () => new Promise((done) => setTimeout(done, 200));
-  await wait();
   const whole = spans();
   mouse("mouseenter", 0.25, over);
   mouse("mousemove", 0.25, over);
@@ -296,12 +302,43 @@ addEventListener("load", () => setTimeout(async () => {
   mouse("mouseup", 0.5, document);
   await wait();
   note("zoomed", spans().every((s, i) => Math.abs(s / whole[i] - 0.25) < 0.05));
+  const others = [...document.querySelectorAll("figure.consistency .plots > div, figure.noise .plots > div")].map((d) => Math.round(d.dataset.to - d.dataset.from));
+  note("shared", others.length === 5 && others.every((s) => s === spans()[0]));
+  const time = () => [figure("window").querySelector(".span").textContent, ...[...figure("window").querySelectorAll("tbody tr")].map((r) => [...r.cells].map((c) => c.dataset.value ?? c.textContent))];
+  note("part", time());
   mouse("mousemove", 0.4, over);
   await wait();
   note("readout", figure("errors").querySelector(".readout").textContent);
   mouse("dblclick", 0.5, over);
   await wait();
   note("reset", String(spans()) === String(whole));
+  note("scored", time());
+  [...figure("window").querySelectorAll("thead button")].find((b) => b.textContent.startsWith("position RMSE")).click();
+  note("window", [...figure("window").querySelectorAll("tbody th")].map((c) => c.textContent).join(","));
+  // Pixels of the first plot change with the single runs.
+  const pixels = () => {
+    const canvas = figure("errors").querySelector("canvas");
+    return canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+  };
+  const runs = [...figure("errors").querySelectorAll("[aria-pressed]")].find((b) => b.textContent === "single runs");
+  const before_click = pixels();
+  runs.click();
+  await wait();
+  const after_click = pixels();
+  note("runs", before_click.filter((v, i) => v !== after_click[i]).length > 4000);
+  runs.click();
+  note("paths", figure("path").querySelectorAll("svg path[data-last]").length);
+  // Every figure hands over its numbers, and all but the tables a picture.
+  const saved = [];
+  const make = URL.createObjectURL;
+  URL.createObjectURL = (blob) => { saved.push(blob); return make.call(URL, blob); };
+  HTMLAnchorElement.prototype.click = () => {};
+  document.querySelectorAll("figure .export").forEach((b) => b.click());
+  const texts = await Promise.all(saved.map((blob) => blob.text()));
+  const parser = new DOMParser();
+  note("svgs", texts.filter((t, i) => saved[i].type === "image/svg+xml" && parser.parseFromString(t, "image/svg+xml").querySelector("parsererror") === null && t.includes("<path")).length);
+  note("csvs", texts.filter((t, i) => saved[i].type === "text/csv" && t.split("\n").length > 3).length);
+  note("error_csv", texts.find((t) => t.startsWith("filter,time [s]")).split("\n").slice(0, 1)[0]);
   const theme = document.documentElement.dataset.theme;
   document.getElementById("theme").click();
   note("theme", theme !== document.documentElement.dataset.theme);
@@ -354,7 +391,12 @@ fn the_page_works_in_a_browser() {
     let ascending = names.join(",");
     names.reverse();
     let expected = serde_json::json!({
-        "plots": 11,
+        "plots": 14,
+        "shared": true,
+        "runs": true,
+        "svgs": 6,
+        "csvs": 8,
+        "window": ascending.clone(),
         "tabs": "fixed_q,snc,milton",
         "chosen": "snc",
         "forest": 2,
@@ -370,6 +412,28 @@ fn the_page_works_in_a_browser() {
     for (name, value) in expected.as_object().unwrap() {
         assert_eq!(&found[name], value, "{name}: {found}");
     }
+    // The errors of the scored time are those of the summary, those of another time are not.
+    let column = |rows: &serde_json::Value, filter: &str, at: usize| -> Option<f64> {
+        let row = rows.as_array().unwrap().iter().find(|r| r[0] == filter).unwrap();
+        row[at].as_str().unwrap().parse().ok()
+    };
+    for row in &summary {
+        for (at, name) in [(1, "pos_rmse_m"), (2, "vel_rmse_m_s"), (3, "acc_rmse_m_s2"), (4, "nees"), (5, "nis")] {
+            let expected: Option<f64> = row[name].parse().ok();
+            let [shown, part] = ["scored", "part"].map(|time| column(&found[time], &row["filter"], at));
+            let Some((shown, expected)) = shown.zip(expected) else {
+                assert_eq!((shown, part), (expected, None), "{name}");
+                continue;
+            };
+            assert!((shown / expected - 1.0).abs() < 2e-4, "{name}: {shown} instead of {expected}");
+            assert!((part.unwrap() / expected - 1.0).abs() > 1e-3, "{name}: {part:?}");
+        }
+    }
+    assert_eq!(found["scored"][0], "300 to 5680 s, the scored time");
+    let header = found["error_csv"].as_str().unwrap();
+    assert!(header.contains("3 sigma estimated velocity, t [m/s]"), "{header}");
+    // The path in two planes, each with nine CO2 vents and one of waste water.
+    assert!(found["paths"].as_u64().unwrap() >= 2 * 10, "{}", found["paths"]);
     let readout = found["readout"].as_str().unwrap();
     assert!(
         readout.contains("mean error") && readout.contains(" m, 3σ sample"),
