@@ -6,9 +6,9 @@ mod mocks;
 use cosim::Scheme;
 use mocks::{Quirk, SIGMA, acceleration, noise, spec, two_rates};
 use study::{Distribution, FilterResult, Spec, Study, StudyError, Summary, Varied, rehearse};
-use trade_harness::report::{epochs, kept};
 use trade_harness::report::runs::{Named, render_failures, render_paired, render_runs};
 use trade_harness::report::summary;
+use trade_harness::report::{epochs, kept};
 
 const RUNS: i32 = 8;
 

@@ -112,9 +112,10 @@
     return found;
   };
   /** Places of a logarithmic axis: powers of ten, or also twice and five times these where there are few. */
-  const decades = (low, high) => {
+  const decades = (low, high, most = 20) => {
     const found = [];
-    for (let e = Math.floor(Math.log10(low)); e <= Math.log10(high); e += 1) {
+    const every = Math.ceil(Math.log10(high / low) / most);
+    for (let e = Math.floor(Math.log10(low) / every) * every; e <= Math.log10(high); e += every) {
       for (const m of high / low > 300 ? [1] : [1, 2, 5]) found.push(+`${m}e${e}`);
     }
     return found.filter((v) => v >= low * (1 - 1e-9) && v <= high * (1 + 1e-9));
@@ -141,7 +142,7 @@
       frame.push(tag("line", { x1: left, x2: left + w, y1: py(v), y2: py(v), stroke: css("--grid") }));
       frame.push(label(left - 6, py(v) + 4, o.y.log ? power(v) || trimmed(v) : trimmed(v / 10 ** e), { "text-anchor": "end" }));
     }
-    for (const v of o.x.log ? decades(o.x.low, o.x.high) : ticks(o.x.low, o.x.high, Math.min(8, Math.max(3, Math.floor(w / 90))))) {
+    for (const v of o.x.log ? decades(o.x.low, o.x.high, w / 44) : ticks(o.x.low, o.x.high, Math.min(8, Math.max(3, Math.floor(w / 90))))) {
       frame.push(tag("line", { x1: px(v), x2: px(v), y1: top, y2: top + h, stroke: css("--grid") }));
       frame.push(label(px(v), top + h + 16, o.x.log ? power(v) || trimmed(v) : trimmed(v / 10 ** ex), { "text-anchor": "middle" }));
     }
@@ -505,6 +506,59 @@
     return () => { plots.innerHTML = svg(0); };
   };
 
+  /** Candidates of a search, one panel for each parameter. */
+  const search = (figure, study) => {
+    const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools");
+    let chosen = 0;
+    const svg = (fixed) => {
+      const s = study.search[chosen];
+      const full = fixed || Math.max(330, Math.min(plots.clientWidth || 900, 1000));
+      const across = Math.min(s.parameters.length, full > 600 ? 3 : 1), width = full / across, height = 270;
+      const found = s.tries.filter((t) => t.error > 0);
+      const errors = found.map((t) => t.error);
+      const [low, high] = errors.length ? padded([Math.min(...errors), Math.max(...errors)], true) : [0.1, 1];
+      const best = found.filter((t) => t.feasible).reduce((b, t) => (b === null || t.error < b.error ? t : b), null);
+      const given = found.find((t) => t.values.length === 0);
+      figure.querySelector(".chosen").textContent = s.filter;
+      const panels = s.parameters.map((p, i) => {
+        const twentieth = (p.high / p.low) ** 0.05, room = twentieth ** 0.6;
+        return panel({ width, height, left: (i % across) * width, top: Math.floor(i / across) * height, title: p.name,
+          x: { low: p.low / room, high: p.high * room, log: true, label: "value", unit: "" }, y: { low, high, log: true, label: `${s.objective[0]} RMSE`, unit: s.objective[1] },
+          shades: [{ from: p.low, to: p.low * twentieth, tint: css("--burn") }, { from: p.high / twentieth, to: p.high, tint: css("--burn") }],
+          series: given ? [{ x: [p.low / room, p.high * room], y: [given.error, given.error], tint: css("--soft"), width: 1, dash: [4, 3] }] : [],
+          dots: found.filter((t) => t.values.length > i).map((t) => ({ x: t.values[i], y: t.error, tint: t.feasible ? css("--f0") : css("--soft"), ring: !t.feasible, r: t === best ? 6.5 : 3 })) });
+      });
+      return picture(full, Math.ceil(panels.length / across) * height, panels.join(""));
+    };
+    const draw = () => { plots.innerHTML = svg(0); };
+    tabs(tools, study.search.map((s) => s.filter), 0, (index) => { chosen = index; draw(); });
+    exports(tools, `${study.scenario}_search`, () => {
+      const s = study.search[chosen];
+      return [["filter", ...s.parameters.map((p) => p.name), `${s.objective[0]} RMSE [${s.objective[1]}]`, "feasible"], ...s.tries.map((t) => [s.filter, ...s.parameters.map((_, i) => t.values[i]), t.error, t.feasible ? 1 : 0])];
+    }, () => svg(900));
+    return draw;
+  };
+
+  const learning = (figure, study) => {
+    const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools");
+    const { t, axes } = study.learning;
+    const lines = [{ name: "true acceleration", tint: "--f6" }, { name: "error of its estimate, root mean square", tint: "--f1" }];
+    const svg = (fixed) => {
+      const full = fixed || Math.max(330, Math.min(plots.clientWidth || 900, 1000)), across = full > 600 ? 3 : 1, width = full / across, height = 270;
+      const legend = key(lines.map((l) => ({ ...l, tint: css(l.tint) })), full);
+      const inner = axes.map((axis, i) => {
+        const size = [axis.truth.map((v) => (v === null ? null : Math.abs(v))), axis.error];
+        const [low, high] = padded(extent(size.map((list) => list.map((v) => (v > 0 ? v : null))), () => true) ?? [0.1, 1], true);
+        return panel({ width, height, left: (i % across) * width, top: legend.height + Math.floor(i / across) * height, title: `d, ${axis.name}`,
+          x: { low: 0, high: t[t.length - 1], label: "time", unit: "s" }, y: { low: Math.max(low, high / 1e6), high, log: true, label: "acceleration", unit: "m/s²" },
+          series: size.map((y, k) => ({ x: t, y, tint: css(lines[k].tint), width: 1.2 })) });
+      });
+      return picture(full, legend.height + Math.ceil(axes.length / across) * height, legend.inner + inner.join(""));
+    };
+    exports(tools, "learning_curve", () => [["time [s]", ...axes.flatMap((a) => [`true d ${a.name} [m/s²]`, `error of d ${a.name} [m/s²]`])], ...t.map((at, i) => [at, ...axes.flatMap((a) => [a.truth[i], a.error[i]])])], () => svg(900));
+    return () => { plots.innerHTML = svg(0); };
+  };
+
   const consistency = (figure, study) => {
     const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools"), readout = figure.querySelector(".readout");
     const filters = study.filters.map((f, index) => ({ ...f, index })).filter((f) => f.series && f.series.nees.length);
@@ -666,13 +720,13 @@
       const column = heads.findIndex((head) => head.hasAttribute("aria-sort"));
       if (column < 0) return;
       const ascending = heads[column].getAttribute("aria-sort") === "ascending";
-      const value = (row) => (column === 0 ? row.cells[0].textContent : row.cells[column].dataset.value);
+      const value = (row) => row.cells[column].dataset.value ?? row.cells[column].textContent;
       const sign = ascending ? 1 : -1;
       body.append(...[...body.rows].sort((a, b) => {
         const [x, y] = [value(a), value(b)];
         // What is absent comes last, whichever way.
         if (x === "" || y === "") return (x === "") - (y === "");
-        return sign * (column === 0 ? x.localeCompare(y) : x - y);
+        return sign * (isFinite(x) && isFinite(y) ? x - y : x.localeCompare(y));
       }));
     };
     heads.forEach((head) => head.querySelector("button").addEventListener("click", () => {
@@ -693,7 +747,7 @@
       return found ? [make(found, study)] : [];
     };
     sortable(article.querySelector("figure.summary"), study, `${study.scenario}_summary`);
-    return [...figure("cases", matrix("cases")), ...figure("phases", matrix("phases")), ...figure("window", windowed), ...figure("errors", errors), ...figure("noise", noise), ...figure("path", path), ...figure("consistency", consistency), ...figure("forest", forest), ...figure("cdf", cdf)];
+    return [...figure("learning", learning), ...figure("search", search), ...figure("cases", matrix("cases")), ...figure("phases", matrix("phases")), ...figure("window", windowed), ...figure("errors", errors), ...figure("noise", noise), ...figure("path", path), ...figure("consistency", consistency), ...figure("forest", forest), ...figure("cdf", cdf)];
   });
   const themeButton = document.getElementById("theme");
   const dress = (dark) => {

@@ -9,6 +9,7 @@ use crate::events::{Event, events};
 use crate::folder::{Folder, Row, StudyFacts};
 use crate::kept::{KeptRuns, Path, kept_runs, path};
 use crate::matrix::Matrix;
+use crate::search::{Search, searches};
 use crate::series::{Column, Series, series};
 use crate::window::{Window, window};
 
@@ -48,6 +49,8 @@ pub(crate) struct Figures {
     pub phases: Option<Matrix>,
     /// Position RMSE by case, with the first case of a world that has several.
     pub cases: Option<Matrix>,
+    /// What `tune` tried, with the first case of a world.
+    pub search: Vec<Search>,
     pub forest: Vec<Forest>,
     pub errors: Vec<[&'static str; 2]>,
 }
@@ -121,6 +124,11 @@ fn figures_of(folder: &Folder, study: &StudyFacts, index: usize, room: [usize; 2
         path: file.and_then(|file| path(&file, &study.mission["environment"]["gravity"])),
         phases: Matrix::new(&folder.phases(study), "phase"),
         cases: Matrix::new(&folder.cases(&study.scenario), "case").filter(|_| first),
+        search: if first {
+            searches(&folder.search(&study.scenario))
+        } else {
+            Vec::new()
+        },
         forest: paired.iter().filter_map(|row| forest(row)).collect(),
         errors: ERRORS.iter().map(|(_, name, unit)| [*name, *unit]).collect(),
     })

@@ -75,6 +75,7 @@ pub(crate) struct Folder {
     failures: Vec<Row>,
     phases: Vec<Row>,
     requirements: Vec<Row>,
+    search: Vec<Row>,
 }
 
 impl Folder {
@@ -109,6 +110,11 @@ impl Folder {
                 &["scenario", "filter", "case", "phase", "pos_rmse_m"],
             )?,
             requirements: table_if_there(path, "requirements.csv", &["scenario", "filter", "metric", "verdict"])?,
+            search: table_if_there(
+                path,
+                "search.csv",
+                &["scenario", "filter", "values", "ranges", "value", "feasible"],
+            )?,
         })
     }
 
@@ -138,6 +144,11 @@ impl Folder {
         self.requirements.iter().filter(|r| r.is_of(study)).collect()
     }
 
+    /// Candidates of the searches in a world.
+    pub fn search(&self, scenario: &str) -> Vec<&Row> {
+        self.search.iter().filter(|r| r.text("scenario") == scenario).collect()
+    }
+
     /// Rows of `summary.csv` of a world, in all cases.
     pub fn cases(&self, scenario: &str) -> Vec<&Row> {
         self.summary.iter().filter(|r| r.text("scenario") == scenario).collect()
@@ -159,24 +170,29 @@ impl Folder {
     }
 
     fn over_time(&self, name: &str) -> Result<Option<Epochs>, ReportError> {
-        let path = self.path.join(name);
-        let wrong = |source| ReportError::Table {
-            path: path.clone(),
-            source,
-        };
-        if !path.is_file() {
-            return Ok(None);
-        }
-        let mut reader = csv::Reader::from_path(&path).map_err(wrong)?;
-        let header: Vec<String> = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
-        let mut columns = vec![Vec::new(); header.len()];
-        for record in reader.records() {
-            for (column, cell) in columns.iter_mut().zip(&record.map_err(wrong)?) {
-                column.push(cell.parse::<f64>().ok());
-            }
-        }
-        Ok(Some(Epochs { header, columns }))
+        over_time(&self.path, name)
     }
+}
+
+/// A file over time; `None` when there is none.
+pub(crate) fn over_time(folder: &Path, name: &str) -> Result<Option<Epochs>, ReportError> {
+    let path = folder.join(name);
+    let wrong = |source| ReportError::Table {
+        path: path.clone(),
+        source,
+    };
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let mut reader = csv::Reader::from_path(&path).map_err(wrong)?;
+    let header: Vec<String> = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
+    let mut columns = vec![Vec::new(); header.len()];
+    for record in reader.records() {
+        for (column, cell) in columns.iter_mut().zip(&record.map_err(wrong)?) {
+            column.push(cell.parse::<f64>().ok());
+        }
+    }
+    Ok(Some(Epochs { header, columns }))
 }
 
 /// A file over time: each column with `None` where its cell is empty.
@@ -213,7 +229,7 @@ fn table_if_there(folder: &Path, name: &'static str, needed: &[&'static str]) ->
     }
 }
 
-fn table(folder: &Path, name: &'static str, needed: &[&'static str]) -> Result<Vec<Row>, ReportError> {
+pub(crate) fn table(folder: &Path, name: &'static str, needed: &[&'static str]) -> Result<Vec<Row>, ReportError> {
     let bytes = contents(folder, name)?;
     let path = folder.join(name);
     let wrong = |source| ReportError::Table {

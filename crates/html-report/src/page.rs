@@ -71,6 +71,7 @@ struct Section {
     has_path: bool,
     has_phases: bool,
     has_cases: bool,
+    has_search: bool,
 }
 
 /// A line of `requirements.csv`.
@@ -158,6 +159,7 @@ fn section(folder: &Folder, study: &StudyFacts, figures: &Figures) -> Result<Sec
         has_path: figures.path.is_some(),
         has_phases: figures.phases.is_some(),
         has_cases: figures.cases.is_some(),
+        has_search: !figures.search.is_empty(),
         requirements: folder.requirements(study).into_iter().map(requirement).collect(),
         short_identity: folder
             .manifest
