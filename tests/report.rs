@@ -216,10 +216,26 @@ fn figures_are_written_as_svg_and_png() {
     for (name, shows) in [
         (
             "error_snc",
-            &["position, r [m]", "velocity, n [m/s]", "time [s]", "mean error"][..],
+            &[
+                "position, r [m]",
+                "velocity, n [m/s]",
+                "time [s]",
+                "mean error",
+                "single runs",
+            ][..],
         ),
         ("consistency", &["NEES / states [1]", "NIS / rows [1]", "snc"]),
-        ("paired_position", &["minus that of fixed_q", "[m]", "milton", "snc"]),
+        (
+            "paired_position",
+            &[
+                "difference of position RMSE",
+                "[m]",
+                "milton − fixed_q",
+                "snc − fixed_q",
+            ],
+        ),
+        ("process_noise", &["root of q, x [m/s^2.5]", "time [s]", "milton"]),
+        ("path", &["true path of run 0", "t [m]", "r [m]"]),
         (
             "runs_velocity",
             &["velocity RMSE of a run [m/s]", "share of runs", "fixed_q"],
@@ -282,10 +298,11 @@ addEventListener("load", () => setTimeout(async () => {
   note("hidden", before - curves());
   // A drag over the first plot zooms all of its figure; a double click resets them.
   const spans = () => [...figure("errors").querySelectorAll(".plots > div")].map((d) => Math.round(d.dataset.to - d.dataset.from));
+  const wait = () => new Promise((done) => setTimeout(done, 200));
+  // A plot finds its place only after the script that made it.
+  await wait();
   const over = figure("errors").querySelector(".u-over"), box = over.getBoundingClientRect();
   const mouse = (kind, part, target) => target.dispatchEvent(new MouseEvent(kind, { bubbles: true, button: 0, clientX: box.left + part * box.width, clientY: box.top + 0.5 * box.height, movementX: 5, movementY: 5 }));
-  const wait = () => new Promise((done) => setTimeout(done, 200));
-  await wait();
   const whole = spans();
   mouse("mouseenter", 0.25, over);
   mouse("mousemove", 0.25, over);
@@ -296,12 +313,43 @@ addEventListener("load", () => setTimeout(async () => {
   mouse("mouseup", 0.5, document);
   await wait();
   note("zoomed", spans().every((s, i) => Math.abs(s / whole[i] - 0.25) < 0.05));
+  const others = [...document.querySelectorAll("figure.consistency .plots > div, figure.noise .plots > div")].map((d) => Math.round(d.dataset.to - d.dataset.from));
+  note("shared", others.length === 5 && others.every((s) => s === spans()[0]));
+  const time = () => [figure("window").querySelector(".span").textContent, ...[...figure("window").querySelectorAll("tbody tr")].map((r) => [...r.cells].map((c) => c.dataset.value ?? c.textContent))];
+  note("part", time());
   mouse("mousemove", 0.4, over);
   await wait();
   note("readout", figure("errors").querySelector(".readout").textContent);
   mouse("dblclick", 0.5, over);
   await wait();
   note("reset", String(spans()) === String(whole));
+  note("scored", time());
+  [...figure("window").querySelectorAll("thead button")].find((b) => b.textContent.startsWith("position RMSE")).click();
+  note("window", [...figure("window").querySelectorAll("tbody th")].map((c) => c.textContent).join(","));
+  // Pixels of the first plot change with the single runs.
+  const pixels = () => {
+    const canvas = figure("errors").querySelector("canvas");
+    return canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+  };
+  const runs = [...figure("errors").querySelectorAll("[aria-pressed]")].find((b) => b.textContent === "single runs");
+  const before_click = pixels();
+  runs.click();
+  await wait();
+  const after_click = pixels();
+  note("runs", before_click.filter((v, i) => v !== after_click[i]).length > 4000);
+  runs.click();
+  note("paths", figure("path").querySelectorAll("svg path[data-last]").length);
+  // Every figure hands over its numbers, and all but the tables a picture.
+  const saved = [];
+  const make = URL.createObjectURL;
+  URL.createObjectURL = (blob) => { saved.push(blob); return make.call(URL, blob); };
+  HTMLAnchorElement.prototype.click = () => {};
+  document.querySelectorAll("figure .export").forEach((b) => b.click());
+  const texts = await Promise.all(saved.map((blob) => blob.text()));
+  const parser = new DOMParser();
+  note("svgs", texts.filter((t, i) => saved[i].type === "image/svg+xml" && parser.parseFromString(t, "image/svg+xml").querySelector("parsererror") === null && t.includes("<path")).length);
+  note("csvs", texts.filter((t, i) => saved[i].type === "text/csv" && t.split("\n").length > 3).length);
+  note("error_csv", texts.find((t) => t.startsWith("filter,time [s]")).split("\n").slice(0, 1)[0]);
   const theme = document.documentElement.dataset.theme;
   document.getElementById("theme").click();
   note("theme", theme !== document.documentElement.dataset.theme);
@@ -315,10 +363,10 @@ addEventListener("load", () => setTimeout(async () => {
 </script>"#;
 
 /// A page in headless Chromium: what the probe found, and what stood on the console. `None` without Chromium.
-fn browsed(page: &str, size: &str) -> Option<(serde_json::Value, Vec<String>)> {
+fn browsed(page: &str, probe: &str, size: &str) -> Option<(serde_json::Value, Vec<String>)> {
     let folder = tempfile::tempdir().unwrap();
     let file: PathBuf = folder.path().join("probed.html");
-    std::fs::write(&file, page.replace("</body>", &format!("{PROBE}</body>"))).unwrap();
+    std::fs::write(&file, page.replace("</body>", &format!("{probe}</body>"))).unwrap();
     let output = Command::new("chromium")
         .args([
             "--headless",
@@ -340,10 +388,162 @@ fn browsed(page: &str, size: &str) -> Option<(serde_json::Value, Vec<String>)> {
     Some((found, console.collect()))
 }
 
+/// Counts what is drawn in the figures that not every folder has.
+const COUNTS: &str = r#"<script>
+addEventListener("load", () => setTimeout(() => {
+  const all = (selector) => [...document.querySelectorAll(selector)];
+  const pairs = [...all("figure.forest [role=tab]")].find((b) => b.textContent === "milton");
+  const every = all("figure.forest circle").length;
+  pairs?.click();
+  const made = document.createElement("pre");
+  made.id = "probe";
+  made.textContent = JSON.stringify({
+    cells: all("figure.phases rect").length,
+    bold: all("figure.phases text[font-weight='700']").map((t) => t.textContent).join(","),
+    pairs: [every, all("figure.forest circle").length],
+    mirrored: document.querySelector("figure.forest svg")?.textContent.includes("fixed_q − milton"),
+    tries: all("figure.search circle").length,
+    edges: all("figure.search rect[fill^=rgba]").length,
+    learning: all("figure.learning path[data-last]").length,
+    rows: all("figure.lines tbody tr").length,
+    good: all("figure.lines td.good").length,
+    wide: document.documentElement.scrollWidth > innerWidth,
+    resources: performance.getEntriesByType("resource").length,
+  });
+  document.body.append(made);
+}, 200));
+</script>"#;
+
+/// A copy of the study with more tables beside it, and its page.
+fn with_tables(tables: &[(&str, &str)]) -> String {
+    let sent = tempfile::tempdir().unwrap();
+    for (name, bytes) in results(study()) {
+        let path = sent.path().join(&name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, bytes).unwrap();
+    }
+    for (name, text) in tables {
+        std::fs::write(sent.path().join(name), text).unwrap();
+    }
+    harness_ok(&["report", text(sent.path())]);
+    page(sent.path())
+}
+
+#[test]
+fn phases_requirements_pairs_and_searches_are_shown_where_they_are() {
+    let case = read_csv(&study().join("summary.csv"))[0]["case"].clone();
+    let phases: String = ["scored,1.5,2.5,3.5", "vents,8,7,6"]
+        .iter()
+        .flat_map(|line| {
+            let (phase, values) = line.split_once(',').unwrap();
+            let of = ["fixed_q", "snc", "milton"].into_iter().zip(values.split(','));
+            of.map(|(filter, v)| format!("leo_venting,{filter},{case},{phase},{v}\n"))
+                .collect::<Vec<_>>()
+        })
+        .collect();
+    let pair = |filter: &str, reference: &str, low: f64| {
+        format!(
+            "leo_venting,{filter},{reference},{case},pos_rmse_m,4,9,1,{},{low},{}\n",
+            low + 1.0,
+            low + 2.0
+        )
+    };
+    let pairs = [
+        pair("snc", "fixed_q", -3.0),
+        pair("milton", "fixed_q", 1.0),
+        pair("milton", "snc", 4.0),
+    ]
+    .concat();
+    let page = with_tables(&[
+        (
+            "phases.csv",
+            &format!("scenario,filter,case,phase,pos_rmse_m\n{phases}"),
+        ),
+        (
+            "requirements.csv",
+            &format!(
+                "scenario,filter,case,metric,phase,at_least,at_most,value,unit,margin,verdict\n\
+                 leo_venting,snc,{case},pos_p95_m,vents,,0.5,0.25,m,0.25,met\n\
+                 leo_venting,milton,{case},pos_p95_m,,,0.5,2,m,-1.5,MISSED\n"
+            ),
+        ),
+        (
+            "paired.csv",
+            &format!(
+                "scenario,filter,reference,case,quantity,runs,mean_difference,standard_error,difference,low,high\n{pairs}"
+            ),
+        ),
+        (
+            "search.csv",
+            "scenario,filter,evaluation,round,values,ranges,objective,value,nees,failed,diverged,bad_runs,feasible\n\
+             leo_venting,snc,1,0,,snc.q=1e-6:1e-2,position,3,1,0,0,0,1\n\
+             leo_venting,snc,2,0,snc.q=1e-4,snc.q=1e-6:1e-2,position,2,1,0,0,0,1\n\
+             leo_venting,snc,3,0,snc.q=2e-3,snc.q=1e-6:1e-2,position,1,9,0,0,0,0\n",
+        ),
+    ]);
+    let list = between(&page, "<ul class=\"requirements\">", "</ul>");
+    assert!(
+        list.contains("<li class=\"good\"><b>met</b> snc: pos_p95_m in vents 0.250 m, required ≤ 0.500")
+            && list.contains("<li class=\"bad\"><b>missed</b> milton: pos_p95_m 2.00 m, required ≤ 0.500")
+            && list.contains("margin −1.50 m"),
+        "{list}"
+    );
+    let Some((found, console)) = browsed(&page, COUNTS, "1200,1600") else {
+        skipped(
+            "phases_requirements_pairs_and_searches_are_shown_where_they_are",
+            "chromium",
+        );
+        return;
+    };
+    assert!(console.is_empty(), "{console:#?}");
+    let expected = serde_json::json!({
+        "cells": 6, "bold": "1.50,6.00", "pairs": [3, 2], "mirrored": true, "tries": 2, "edges": 2, "wide": false, "resources": 0,
+    });
+    for (name, value) in expected.as_object().unwrap() {
+        assert_eq!(&found[name], value, "{name}: {found}");
+    }
+    let (narrow, _) = browsed(&page, COUNTS, "500,900").unwrap();
+    assert_eq!(narrow["wide"], false, "{narrow}");
+}
+
+#[test]
+fn a_folder_of_reproduce_has_a_page_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "reproduce.csv",
+        "chapter,paper,item,quantity,unit,paper_value,value,standard_error,bound_low,bound_high,required,verdict,note\n\
+         a,Pesce,\"Table <1>\",x,m,1.5,1.25,0.1,1,2,1,holds,why\n\
+         a,Pesce,Table 2,y,m,1.5,9,,,2,1,fails,\n\
+         a,Pesce,Fig. 4,z,s,350,,,,,0,printed only,\n",
+    );
+    write(
+        "learning_curve.csv",
+        "t_s,d_x_m_s2,d_y_m_s2,d_z_m_s2,rms_error_x_m_s2,rms_error_y_m_s2,rms_error_z_m_s2\n\
+         1,1e-6,-2e-6,3e-6,1e-6,1e-6,1e-6\n2,1e-6,-2e-6,3e-6,1e-7,1e-7,1e-7\n",
+    );
+    harness_ok(&["report", text(folder.path())]);
+    let page = page(folder.path());
+    assert_eq!(
+        between(&page, "<p class=\"headline\">", "</p>"),
+        "1 of 2 required bounds missed."
+    );
+    assert!(page.contains("Table &#60;1&#62;") && page.contains("1.00 to 2.00") && page.contains("≤ 2.00"));
+    let Some((found, console)) = browsed(&page, COUNTS, "1200,900") else {
+        skipped("a_folder_of_reproduce_has_a_page_of_its_own", "chromium");
+        return;
+    };
+    assert!(console.is_empty(), "{console:#?}");
+    let expected = serde_json::json!({"learning": 6, "rows": 3, "good": 1, "resources": 0});
+    for (name, value) in expected.as_object().unwrap() {
+        assert_eq!(&found[name], value, "{name}: {found}");
+    }
+}
+
 #[test]
 fn the_page_works_in_a_browser() {
     let page = page(study());
-    let Some((found, console)) = browsed(&page, "1200,1600") else {
+    let Some((found, console)) = browsed(&page, PROBE, "1200,1600") else {
         skipped("the_page_works_in_a_browser", "chromium");
         return;
     };
@@ -354,7 +554,12 @@ fn the_page_works_in_a_browser() {
     let ascending = names.join(",");
     names.reverse();
     let expected = serde_json::json!({
-        "plots": 11,
+        "plots": 14,
+        "shared": true,
+        "runs": true,
+        "svgs": 6,
+        "csvs": 8,
+        "window": ascending.clone(),
         "tabs": "fixed_q,snc,milton",
         "chosen": "snc",
         "forest": 2,
@@ -370,6 +575,37 @@ fn the_page_works_in_a_browser() {
     for (name, value) in expected.as_object().unwrap() {
         assert_eq!(&found[name], value, "{name}: {found}");
     }
+    // The errors of the scored time are those of the summary, those of another time are not.
+    let column = |rows: &serde_json::Value, filter: &str, at: usize| -> Option<f64> {
+        let row = rows.as_array().unwrap().iter().find(|r| r[0] == filter).unwrap();
+        row[at].as_str().unwrap().parse().ok()
+    };
+    for row in &summary {
+        for (at, name) in [
+            (1, "pos_rmse_m"),
+            (2, "vel_rmse_m_s"),
+            (3, "acc_rmse_m_s2"),
+            (4, "nees"),
+            (5, "nis"),
+        ] {
+            let expected: Option<f64> = row[name].parse().ok();
+            let [shown, part] = ["scored", "part"].map(|time| column(&found[time], &row["filter"], at));
+            let Some((shown, expected)) = shown.zip(expected) else {
+                assert_eq!((shown, part), (expected, None), "{name}");
+                continue;
+            };
+            assert!(
+                (shown / expected - 1.0).abs() < 2e-4,
+                "{name}: {shown} instead of {expected}"
+            );
+            assert!((part.unwrap() / expected - 1.0).abs() > 1e-3, "{name}: {part:?}");
+        }
+    }
+    assert_eq!(found["scored"][0], "300 to 5680 s, the scored time");
+    let header = found["error_csv"].as_str().unwrap();
+    assert!(header.contains("3 sigma estimated velocity, t [m/s]"), "{header}");
+    // The path in two planes, each with nine CO2 vents and one of waste water.
+    assert!(found["paths"].as_u64().unwrap() >= 2 * 10, "{}", found["paths"]);
     let readout = found["readout"].as_str().unwrap();
     assert!(
         readout.contains("mean error") && readout.contains(" m, 3σ sample"),
@@ -377,9 +613,9 @@ fn the_page_works_in_a_browser() {
     );
 
     // Narrow, nothing sticks out; and the probe does see a page that asks a host.
-    let (narrow, console) = browsed(&page, "500,900").unwrap();
+    let (narrow, console) = browsed(&page, PROBE, "500,900").unwrap();
     assert!(narrow["wide"] == false && console.is_empty(), "{narrow} {console:?}");
     let asking = page.replace("<header>", "<img src=\"https://example.invalid/x.png\"><header>");
-    let (_, console) = browsed(&asking, "1200,900").unwrap();
+    let (_, console) = browsed(&asking, PROBE, "1200,900").unwrap();
     assert!(console.iter().any(|l| l.contains("example.invalid")), "{console:?}");
 }

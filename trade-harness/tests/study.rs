@@ -6,9 +6,9 @@ mod mocks;
 use cosim::Scheme;
 use mocks::{Quirk, SIGMA, acceleration, driver, noise, spec, two_rates};
 use study::{Distribution, FilterResult, Spec, Study, StudyError, Summary, Varied, rehearse};
-use trade_harness::report::epochs;
 use trade_harness::report::runs::{Named, render_failures, render_paired, render_runs};
 use trade_harness::report::summary;
+use trade_harness::report::{epochs, kept};
 
 const RUNS: i32 = 8;
 
@@ -333,6 +333,31 @@ fn sensors_of_two_rates_are_scored_at_their_own_times() {
         .map(|line| line.split(',').next().unwrap().parse().unwrap())
         .collect();
     assert_eq!(shown, times.iter().map(|t| f64::from(*t)).collect::<Vec<_>>());
+}
+
+/// Of forty epochs each stretch has one or two; single runs keep their errors, in their order.
+#[test]
+fn errors_of_single_runs_are_kept() {
+    let (s, filters) = study(spec(Quirk::None, &[("good", Quirk::None)]), 1);
+    let text = String::from_utf8(kept::render_run_errors(&s, &filters[0]).unwrap()).unwrap();
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect())
+        .collect();
+    // Two epochs a stretch, so that every error is there, in the order of size in its stretch.
+    assert_eq!(rows.len(), 40 * RUNS as usize);
+    for (index, pair) in rows.chunks(2).enumerate() {
+        let (run, first) = (index as i32 / 20, 2 * (index as i32 % 20) + 1);
+        assert_eq!((pair[0][0], pair[0][1]), (f64::from(run), f64::from(first)));
+        for axis in 0..3 {
+            let expected = [noise(run, first, axis), noise(run, first + 1, axis)];
+            for (row, expected) in pair.iter().zip(expected) {
+                // Five digits are written.
+                assert!((row[2 + axis] - expected).abs() <= 5e-5 * expected.abs(), "{row:?}");
+            }
+        }
+    }
 }
 
 #[test]

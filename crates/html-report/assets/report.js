@@ -1,6 +1,20 @@
 "use strict";
 (() => {
-  const studies = JSON.parse(document.getElementById("data").textContent);
+  /** Numbers of four letters each: the leading 24 bits of an IEEE 754 single in base 64, NaN for what is absent. */
+  const unpack = (text) => {
+    const letter = (i) => {
+      const c = text.charCodeAt(i);
+      return c > 96 ? c - 71 : c > 64 ? c - 65 : c > 47 ? c + 4 : c === 43 ? 62 : 63;
+    };
+    const word = new DataView(new ArrayBuffer(4));
+    return Array.from({ length: text.length / 4 }, (_, k) => {
+      const bits = (letter(4 * k) << 18) | (letter(4 * k + 1) << 12) | (letter(4 * k + 2) << 6) | letter(4 * k + 3);
+      word.setUint32(0, bits << 8);
+      const value = word.getFloat32(0);
+      return isNaN(value) ? null : +value.toPrecision(5);
+    });
+  };
+  const studies = JSON.parse(document.getElementById("data").textContent, (_, value) => (value && value.f24 !== undefined ? unpack(value.f24) : value));
   const root = document.documentElement;
   const prefersDark = matchMedia("(prefers-color-scheme: dark)");
   const css = (name) => getComputedStyle(root).getPropertyValue(name).trim();
@@ -98,9 +112,10 @@
     return found;
   };
   /** Places of a logarithmic axis: powers of ten, or also twice and five times these where there are few. */
-  const decades = (low, high) => {
+  const decades = (low, high, most = 20) => {
     const found = [];
-    for (let e = Math.floor(Math.log10(low)); e <= Math.log10(high); e += 1) {
+    const every = Math.ceil(Math.log10(high / low) / most);
+    for (let e = Math.floor(Math.log10(low) / every) * every; e <= Math.log10(high); e += every) {
       for (const m of high / low > 300 ? [1] : [1, 2, 5]) found.push(+`${m}e${e}`);
     }
     return found.filter((v) => v >= low * (1 - 1e-9) && v <= high * (1 + 1e-9));
@@ -127,15 +142,18 @@
       frame.push(tag("line", { x1: left, x2: left + w, y1: py(v), y2: py(v), stroke: css("--grid") }));
       frame.push(label(left - 6, py(v) + 4, o.y.log ? power(v) || trimmed(v) : trimmed(v / 10 ** e), { "text-anchor": "end" }));
     }
-    for (const v of o.x.log ? decades(o.x.low, o.x.high) : ticks(o.x.low, o.x.high, Math.min(8, Math.max(3, Math.floor(w / 90))))) {
+    for (const v of o.x.log ? decades(o.x.low, o.x.high, w / 44) : ticks(o.x.low, o.x.high, Math.min(8, Math.max(3, Math.floor(w / 90))))) {
       frame.push(tag("line", { x1: px(v), x2: px(v), y1: top, y2: top + h, stroke: css("--grid") }));
       frame.push(label(px(v), top + h + 16, o.x.log ? power(v) || trimmed(v) : trimmed(v / 10 ** ex), { "text-anchor": "middle" }));
+    }
+    for (const d of o.dots ?? []) {
+      inside.push(tag("circle", { cx: px(d.x), cy: py(d.y), r: d.r ?? 4.5, fill: d.ring ? css("--paper") : d.tint, stroke: d.tint, "stroke-width": 1.5 }));
     }
     for (const s of o.series) {
       let path = "", open = false, last = 0;
       s.x.forEach((x, i) => {
         const y = s.y[i];
-        if (y === null || y === undefined || (o.y.log && y <= 0) || (o.x.log && x <= 0)) return;
+        if (y === null || y === undefined || x === null || (o.y.log && y <= 0) || (o.x.log && x <= 0)) return;
         const at = py(y);
         path += !open ? `M${px(x).toFixed(1)} ${at.toFixed(1)}` : s.step ? `H${px(x).toFixed(1)}V${at.toFixed(1)}` : `L${px(x).toFixed(1)} ${at.toFixed(1)}`;
         open = true;
@@ -196,7 +214,7 @@
       ctx.beginPath();
       ctx.rect(left, top, width, height);
       ctx.clip();
-      for (const e of o.events) {
+      for (const e of o.study.events) {
         const from = u.valToPos(e.from_s, "x", true), to = u.valToPos(e.to_s, "x", true);
         ctx.fillStyle = css(e.kind === "burn" ? "--burn" : "--vent");
         ctx.fillRect(from, top, Math.max(to - from, devicePixelRatio), height);
@@ -207,11 +225,30 @@
         ctx.fillStyle = css("--band");
         ctx.fillRect(left, high, width, Math.max(low - high, 2 * devicePixelRatio));
       }
+      if (o.faint) {
+        const { t, values } = o.faint;
+        ctx.strokeStyle = css("--run");
+        ctx.lineWidth = 0.6 * devicePixelRatio;
+        const x = t.map((at) => u.valToPos(at, "x", true));
+        ctx.beginPath();
+        for (let begin = 0; begin < values.length; begin += t.length) {
+          let open = false;
+          for (let i = 0; i < t.length; i += 1) {
+            const value = values[begin + i];
+            if (value === null) continue;
+            const y = u.valToPos(value, "y", true);
+            if (open) ctx.lineTo(x[i], y);
+            else ctx.moveTo(x[i], y);
+            open = true;
+          }
+        }
+        ctx.stroke();
+      }
       ctx.restore();
     };
     const u = new uPlot({
       width: Math.max(holder.clientWidth, 200), height: o.height, title: "", legend: { show: false }, padding: [8, 8, 0, 0],
-      cursor: { y: false, sync: { key: o.group, setSeries: false, scales: ["x", null] }, drag: { x: true, y: false }, points: { size: 5 } },
+      cursor: { y: false, sync: { key: o.study.id, setSeries: false, scales: ["x", null] }, drag: { x: true, y: false }, points: { size: 5 } },
       scales: {
         x: { time: false },
         y: { distr: o.log ? 3 : 1, range: (self, low, high) => {
@@ -228,7 +265,7 @@
       ],
       series: [{}, ...o.series.map((s) => ({ label: s.name, stroke: css(s.tint) || s.tint, width: s.width ?? 1.25, dash: s.dash, show: s.show ?? true, spanGaps: true, points: { show: false } }))],
       // The time shown, for scripts that drive the page.
-      hooks: { setScale: [(self, scale) => { if (scale === "x") [holder.dataset.from, holder.dataset.to] = [self.scales.x.min, self.scales.x.max]; }], drawAxes: [shade], setCursor: [(self) => self.cursor.event && o.hover(self)] },
+      hooks: { setScale: [(self, scale) => { if (scale === "x") { [holder.dataset.from, holder.dataset.to] = [self.scales.x.min, self.scales.x.max]; o.study.shown?.(isWhole(self) ? null : [self.scales.x.min, self.scales.x.max]); } }], drawAxes: [shade], setCursor: [(self) => self.cursor.event && o.hover(self)] },
     }, o.data, holder);
     made.push({ u, holder });
     return u;
@@ -237,12 +274,25 @@
     if (holder.isConnected && Math.abs(holder.clientWidth - u.width) > 2) u.setSize({ width: Math.max(holder.clientWidth, 200), height: u.height });
   });
 
+  /** Gives new plots the time that was shown before. */
+  const rezoom = (live, zoom) => {
+    const time = live[0]?.data[0];
+    if (zoom && (zoom.min > time[0] || zoom.max < time[time.length - 1])) live.forEach((u) => u.setScale("x", { min: zoom.min, max: zoom.max }));
+  };
+  const forget = (live) => {
+    live.forEach((u) => u.destroy());
+    made = made.filter(({ u }) => !live.includes(u));
+  };
+
   // ---- the figures of one study; each returns what draws it anew
   const LINES = [
     { name: "mean error", tint: "--f6", width: 1, of: [["mean", 1]] },
     { name: "3σ sample", tint: "--f0", of: [["sample", 3], ["sample", -3]] },
     { name: "3σ estimated", tint: "--f1", dash: [6, 3], of: [["estimated", 3], ["estimated", -3]] },
+    { name: "single runs", tint: "--run", width: 0.6, of: [] },
   ];
+
+  const RUNS = 3;
 
   const errors = (figure, study) => {
     const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools"), readout = figure.querySelector(".readout");
@@ -254,23 +304,27 @@
       const { t, quantities } = filters[chosen].series;
       return quantities.flatMap((q) => q.axes.map((a) => {
         const lines = LINES.flatMap((line, index) => line.of.map(([kind, factor]) => ({ ...line, index, y: a[kind].map((v) => (v === null ? null : factor * v)) })));
-        return { t, title: `${q.name}, ${a.axis}`, unit: q.unit, lines };
+        const kept = filters[chosen].kept, values = kept?.columns[a.column];
+        return { t, title: `${q.name}, ${a.axis}`, unit: q.unit, lines, faint: values && { t: kept.t, values } };
       }));
     };
     const range = (p) => {
       const arrays = p.lines.filter((l) => shown[l.index]).map((l) => l.y);
-      return padded(extent(arrays, (i) => p.t[i] >= study.scored_from_s) ?? extent(arrays, () => true) ?? [-1, 1]);
+      const lines = extent(arrays, (i) => p.t[i] >= study.scored_from_s) ?? extent(arrays, () => true);
+      const runs = p.faint && shown[RUNS] && extent([p.faint.values], (i) => p.faint.t[i % p.faint.t.length] >= study.scored_from_s);
+      if (!runs || !lines) return padded(lines ?? runs ?? [-1, 1]);
+      // One run that is lost shall not flatten all others.
+      return padded([Math.max(Math.min(lines[0], runs[0]), 1.6 * Math.min(lines[0], 0)), Math.min(Math.max(lines[1], runs[1]), 1.6 * Math.max(lines[1], 0))]);
     };
     const draw = () => {
       const zoom = live[0]?.scales.x;
-      live.forEach((u) => u.destroy());
-      made = made.filter(({ u }) => !live.includes(u));
+      forget(live);
       plots.replaceChildren();
       figure.querySelector(".chosen").textContent = filters[chosen].name;
       const all = panels();
       live = all.map((p, index) => timePlot(plots, {
-        group: `${study.id}-errors`, data: [p.t, ...p.lines.map((l) => l.y)], range: range(p), label: p.title, unit: p.unit, height: 175,
-        events: study.events, last: index >= all.length - 3 || innerWidth <= 720,
+        study, data: [p.t, ...p.lines.map((l) => l.y)], range: range(p), label: p.title, unit: p.unit, height: 200,
+        faint: shown[RUNS] ? p.faint : null, last: index >= all.length - 3 || innerWidth <= 720,
         series: p.lines.map((l) => ({ name: l.name, tint: l.tint, width: l.width, dash: l.dash, show: shown[l.index] })),
         hover: (u) => {
           const i = u.cursor.idx;
@@ -279,29 +333,230 @@
           readout.textContent = `${filters[chosen].name}, t = ${trimmed(p.t[i])} s, ${p.title}: mean error ${short(p.lines[0].y[i])} ${p.unit}, 3σ sample ${of(1)} ${p.unit}, 3σ estimated ${of(2)} ${p.unit}`;
         },
       }));
-      if (zoom && zoom.min > live[0].data[0][0]) live.forEach((u) => u.setScale("x", { min: zoom.min, max: zoom.max }));
+      rezoom(live, zoom);
     };
     if (filters.length === 0) return () => {};
     tabs(tools, filters.map((f) => f.name), 0, (index) => { chosen = index; draw(); });
-    LINES.forEach((line, index) => toggle(tools, line.name, true, line.tint, (on) => { shown[index] = on; draw(); }));
+    LINES.filter((_, index) => index !== RUNS || filters.some((f) => f.kept)).forEach((line, index) => toggle(tools, line.name, true, line.tint, (on) => { shown[index] = on; draw(); }));
     exports(tools, `${study.scenario}_error`, () => {
       const all = panels();
       const head = all.flatMap((p) => ["mean", "3 sigma sample", "3 sigma estimated"].map((n) => `${n} ${p.title} [${p.unit}]`));
       return [["filter", "time [s]", ...head], ...all[0].t.map((t, i) => [filters[chosen].name, t, ...all.flatMap((p) => [0, 1, 3].map((l) => p.lines[l].y[i]))])];
     }, () => {
       const all = panels(), width = 380, height = 230;
-      const legend = key([{ name: filters[chosen].name, tint: "none" }, ...LINES.map((l) => ({ ...l, tint: css(l.tint) }))], 3 * width);
+      const legend = key([{ name: filters[chosen].name, tint: "none" }, ...LINES.filter((_, i) => shown[i]).map((l) => ({ ...l, tint: css(l.tint) }))], 3 * width);
       const x = live[0].scales.x;
       const inner = all.map((p, i) => {
         const [low, high] = [live[i].scales.y.min, live[i].scales.y.max];
         return panel({ width, height, left: (i % 3) * width, top: legend.height + Math.floor(i / 3) * height, title: p.title,
           x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low, high, label: "error", unit: p.unit },
           shades: study.events.map((e) => ({ from: e.from_s, to: e.to_s, tint: css(e.kind === "burn" ? "--burn" : "--vent") })),
-          series: p.lines.filter((l) => shown[l.index]).map((l) => ({ x: p.t, y: l.y, tint: css(l.tint), width: l.width, dash: l.dash })) });
+          series: [...(p.faint && shown[RUNS] ? Array.from({ length: p.faint.values.length / p.faint.t.length }, (_, k) => ({
+            x: p.faint.t, y: p.faint.values.slice(k * p.faint.t.length, (k + 1) * p.faint.t.length), tint: css("--run"), width: 0.6 })) : []),
+          ...p.lines.filter((l) => shown[l.index]).map((l) => ({ x: p.t, y: l.y, tint: css(l.tint), width: l.width, dash: l.dash }))] });
       });
       return picture(3 * width, legend.height + Math.ceil(all.length / 3) * height, legend.inner + inner.join(""));
     });
     return draw;
+  };
+
+  const timesOf = (filters) => [...new Set(filters.flatMap((f) => f.series.t))].sort((a, b) => a - b);
+  const aligned = (times, f, values) => {
+    if (f.series.t.length === times.length) return values;
+    const at = new Map(f.series.t.map((t, i) => [t, values[i]]));
+    return times.map((t) => at.get(t) ?? null);
+  };
+
+  const noise = (figure, study) => {
+    const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools"), readout = figure.querySelector(".readout");
+    const filters = study.filters.map((f, index) => ({ ...f, index })).filter((f) => f.series?.jerk_root);
+    const shown = filters.map(() => true);
+    const times = timesOf(filters);
+    const names = ["x", "y", "z"], unit = "m/s²·⁵";
+    const data = names.map((_, axis) => filters.map((f) => aligned(times, f, f.series.jerk_root[axis]).map((v) => (v > 0 ? v : null))));
+    const range = (axis) => padded(extent(data[axis].filter((_, i) => shown[i]), (i) => times[i] >= study.scored_from_s) ?? [0.1, 10], true);
+    let live = [];
+    const draw = () => {
+      const zoom = live[0]?.scales.x;
+      forget(live);
+      plots.replaceChildren();
+      live = names.map((name, axis) => timePlot(plots, {
+        study, data: [times, ...data[axis]], range: range(axis), log: true, label: `√q, ${name}`, unit, height: 230, last: true,
+        series: filters.map((f, i) => ({ name: f.name, tint: colour(f.index), dash: dash(f.index), width: 1.2, show: shown[i] })),
+        hover: (u) => {
+          const i = u.cursor.idx;
+          if (i === null || i === undefined) return;
+          readout.textContent = `t = ${trimmed(times[i])} s, √q, ${name} [${unit}]: ` + filters.flatMap((f, k) => (shown[k] ? [`${f.name} ${short(data[axis][k][i])}`] : [])).join(", ");
+        },
+      }));
+      rezoom(live, zoom);
+    };
+    filters.forEach((f, i) => toggle(tools, f.name, true, `--f${f.index % 8}`, (on) => { shown[i] = on; draw(); }));
+    exports(tools, `${study.scenario}_process_noise`,
+      () => [["time [s]", ...names.flatMap((name) => filters.map((f) => `root of q ${name} ${f.name} [m/s^2.5]`))], ...times.map((t, i) => [t, ...data.flatMap((axis) => axis.map((d) => d[i]))])],
+      () => {
+        const width = 380, height = 280;
+        const legend = key(filters.filter((f, i) => shown[i]).map((f) => ({ name: f.name, tint: colour(f.index), dash: dash(f.index) })), 3 * width);
+        return picture(3 * width, legend.height + height, legend.inner + names.map((name, axis) => {
+          const { x, y } = live[axis].scales;
+          return panel({ width, height, left: axis * width, top: legend.height, x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low: y.min, high: y.max, log: true, label: `√q, ${name}`, unit },
+            series: filters.map((f, i) => ({ x: times, y: data[axis][i], tint: colour(f.index), dash: dash(f.index) })).filter((_, i) => shown[i]) });
+        }).join(""));
+      });
+    return draw;
+  };
+
+  /** Errors of the time that is shown, from sums over all epochs. */
+  const windowed = (figure, study) => {
+    const body = figure.querySelector("tbody");
+    const filters = study.filters.filter((f) => f.window);
+    const resort = sortable(figure, study, `${study.scenario}_time`);
+    const fill = (time) => {
+      const [low, high] = time ?? [study.scored_from_s, Infinity];
+      let span = null;
+      body.replaceChildren(...filters.map((f) => {
+        const w = f.window;
+        const inside = w.from.map((from, i) => (from >= low && w.to[i] <= high ? i : -1)).filter((i) => i >= 0);
+        if (inside.length) span = [w.from[inside[0]], w.to[inside[inside.length - 1]]];
+        const mean = (s) => {
+          const total = (list) => inside.reduce((sum, i) => sum + (list[i] ?? 0), 0);
+          const weight = total(s.weight);
+          return weight > 0 ? total(s.sum) / weight : null;
+        };
+        const root = (v) => (v === null ? null : Math.sqrt(v));
+        const row = element("tr");
+        row.append(element("th", { scope: "row" }, f.name), ...[...w.squares.map((s) => root(mean(s))), mean(w.nees), mean(w.nis)].map((v) => element("td", { "data-value": v ?? "" }, short(v))));
+        return row;
+      }));
+      figure.querySelector(".span").textContent = span ? `${trimmed(span[0])} to ${trimmed(span[1])} s${time ? "" : ", the scored time"}` : "no whole stretch of it is in the choice";
+      resort();
+    };
+    let waiting = 0;
+    study.shown = (time) => { clearTimeout(waiting); waiting = setTimeout(() => fill(time), 30); };
+    fill(null);
+    return () => {};
+  };
+
+  const path = (figure, study) => {
+    const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools");
+    const { t, axes, relative, chaser, body } = study.path;
+    const [a, b, c] = axes;
+    const views = [[relative, 1, 0, b, a, "relative path"], [relative, 1, 2, b, c, "relative path"]];
+    if (chaser.length) views.push([chaser.map((list, i) => list.map((v) => (v === null ? null : v - body[1][i]))), 0, 2, "x", "z", `orbit about the ${body[0]}`]);
+    if (chaser.length) views.push([views[2][0], 1, 2, "y", "z", `orbit about the ${body[0]}`]);
+    const svg = (fixed) => {
+      const full = fixed || Math.max(330, Math.min(plots.clientWidth || 900, 1000)), across = full > 600 ? 2 : 1;
+      const width = full / across, height = Math.min(0.85 * width, 380);
+      let unequal = false;
+      const inner = views.map(([list, i, j, first, second, title], k) => {
+        const orbit = list !== relative;
+        const x = list[i], y = list[j];
+        const range = (values) => padded(extent([orbit ? [...values, 0] : values], () => true) ?? [-1, 1]);
+        let [x0, x1] = range(x), [y0, y1] = range(y);
+        // The same metres both ways, where that leaves something to see.
+        const w = width - 74, h = height - 62, ratio = ((x1 - x0) / w) / ((y1 - y0) / h);
+        if (ratio > 1 && ratio < 6) [y0, y1] = [(y0 + y1) / 2 - ratio * (y1 - y0) / 2, (y0 + y1) / 2 + ratio * (y1 - y0) / 2];
+        else if (ratio <= 1 && ratio > 1 / 6) [x0, x1] = [(x0 + x1) / 2 - (x1 - x0) / ratio / 2, (x0 + x1) / 2 + (x1 - x0) / ratio / 2];
+        else unequal = true;
+        const during = (e) => ({ x: x.map((v, n) => (t[n] >= e.from_s && t[n] <= e.to_s ? v : null)), y, tint: css(e.kind === "burn" ? "--f4" : "--f5"), width: 5 });
+        // What is shorter than the time between points has one of them.
+        const near = (e) => t.reduce((best, at, n) => (Math.abs(at - e.from_s) < Math.abs(t[best] - e.from_s) ? n : best), 0);
+        const marks = orbit ? [] : study.events.map(during);
+        const burns = orbit ? [] : study.events.filter((e) => e.kind === "burn").map((e) => ({ x: x[near(e)], y: y[near(e)], tint: css("--f4"), r: 7 }));
+        const last = t.length - 1;
+        const dots = [{ x: x[0], y: y[0], tint: css("--ink"), ring: true }, ...burns, { x: x[last], y: y[last], tint: css("--ink") }];
+        if (orbit) dots.push({ x: 0, y: 0, tint: css("--soft") });
+        return panel({ width, height, left: (k % across) * width, top: Math.floor(k / across) * height, title: `${title}, ${first} and ${second}`,
+          x: { low: x0, high: x1, label: first, unit: "m" }, y: { low: y0, high: y1, label: second, unit: "m" },
+          series: [...marks, { x, y, tint: css("--ink"), width: 1.4 }], dots });
+      });
+      figure.querySelector(".axis-note").textContent = (unequal ? "Scales of the two axes differ where a path is long and thin." : "") + (chaser.length ? " Grey: the body; axes N." : "");
+      return picture(full, Math.ceil(views.length / across) * height, inner.join(""));
+    };
+    exports(tools, `${study.scenario}_path`, () => [["time [s]", ...axes.map((axis) => `${axis} of chaser from target [m]`), ...(chaser.length ? ["chaser x [m]", "chaser y [m]", "chaser z [m]"] : [])],
+      ...t.map((at, i) => [at, ...relative.map((l) => l[i]), ...chaser.map((l) => l[i])])], () => svg(900));
+    return () => { plots.innerHTML = svg(0); };
+  };
+
+  /** Filters by phases or cases, the darker the larger beside the best of the column. */
+  const matrix = (kind) => (figure, study) => {
+    const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools");
+    const { filters, columns, values } = study[kind];
+    const svg = (fixed) => {
+      const left = 12 + 7 * Math.max(...filters.map((f) => f.length)), line = 28;
+      const full = Math.max(fixed || Math.min(plots.clientWidth || 900, 1000), left + 62 * columns.length);
+      const cell = Math.min((full - left) / columns.length, 150);
+      const slanted = columns.some((c) => 7 * c.length > cell - 8);
+      const top = slanted ? 24 + 4.2 * Math.max(...columns.map((c) => c.length)) : 24;
+      const heads = columns.map((c, k) => {
+        const x = left + (k + 0.5) * cell;
+        return label(x, top - 8, c, slanted ? { transform: `rotate(-35 ${x.toFixed(1)} ${top - 8})` } : { "text-anchor": "middle" });
+      });
+      const rows = filters.map((f, r) => label(left - 8, top + (r + 0.5) * line + 4, f, { "text-anchor": "end" }) + columns.map((c, k) => {
+        const value = values[r][k], best = Math.min(...values.map((row) => row[k] ?? Infinity));
+        // A decade beside the best is as dark as it gets.
+        const share = value === null ? 0 : Math.min(Math.log10(value / best), 1) || 0;
+        return tag("g", {}, tag("title", {}, escaped(`${f}, ${c}: ${short(value)} m${value === null ? "" : `, ${short(value / best)} times the best`}`)) +
+          tag("rect", { x: left + k * cell + 1, y: top + r * line + 1, width: cell - 2, height: line - 2, fill: css("--heat"), "fill-opacity": (0.08 + 0.62 * share).toFixed(3) }) +
+          label(left + (k + 0.5) * cell, top + (r + 0.5) * line + 4, short(value), { "text-anchor": "middle", "font-weight": value === best ? 700 : 400 }));
+      }).join(""));
+      return picture(full, top + line * filters.length + 4, heads.join("") + rows.join(""));
+    };
+    exports(tools, `${study.scenario}_${kind}`, () => [["filter", ...columns.map((c) => `${c} [m]`)], ...filters.map((f, r) => [f, ...values[r]])], () => svg(900));
+    return () => { plots.innerHTML = svg(0); };
+  };
+
+  /** Candidates of a search, one panel for each parameter. */
+  const search = (figure, study) => {
+    const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools");
+    let chosen = 0;
+    const svg = (fixed) => {
+      const s = study.search[chosen];
+      const full = fixed || Math.max(330, Math.min(plots.clientWidth || 900, 1000));
+      const across = Math.min(s.parameters.length, full > 600 ? 3 : 1), width = full / across, height = 270;
+      const found = s.tries.filter((t) => t.error > 0);
+      const errors = found.map((t) => t.error);
+      const [low, high] = errors.length ? padded([Math.min(...errors), Math.max(...errors)], true) : [0.1, 1];
+      const best = found.filter((t) => t.feasible).reduce((b, t) => (b === null || t.error < b.error ? t : b), null);
+      const given = found.find((t) => t.values.length === 0);
+      figure.querySelector(".chosen").textContent = s.filter;
+      const panels = s.parameters.map((p, i) => {
+        const twentieth = (p.high / p.low) ** 0.05, room = twentieth ** 0.6;
+        return panel({ width, height, left: (i % across) * width, top: Math.floor(i / across) * height, title: p.name,
+          x: { low: p.low / room, high: p.high * room, log: true, label: "value", unit: "" }, y: { low, high, log: true, label: `${s.objective[0]} RMSE`, unit: s.objective[1] },
+          shades: [{ from: p.low, to: p.low * twentieth, tint: css("--burn") }, { from: p.high / twentieth, to: p.high, tint: css("--burn") }],
+          series: given ? [{ x: [p.low / room, p.high * room], y: [given.error, given.error], tint: css("--soft"), width: 1, dash: [4, 3] }] : [],
+          dots: found.filter((t) => t.values.length > i).map((t) => ({ x: t.values[i], y: t.error, tint: t.feasible ? css("--f0") : css("--soft"), ring: !t.feasible, r: t === best ? 6.5 : 3 })) });
+      });
+      return picture(full, Math.ceil(panels.length / across) * height, panels.join(""));
+    };
+    const draw = () => { plots.innerHTML = svg(0); };
+    tabs(tools, study.search.map((s) => s.filter), 0, (index) => { chosen = index; draw(); });
+    exports(tools, `${study.scenario}_search`, () => {
+      const s = study.search[chosen];
+      return [["filter", ...s.parameters.map((p) => p.name), `${s.objective[0]} RMSE [${s.objective[1]}]`, "feasible"], ...s.tries.map((t) => [s.filter, ...s.parameters.map((_, i) => t.values[i]), t.error, t.feasible ? 1 : 0])];
+    }, () => svg(900));
+    return draw;
+  };
+
+  const learning = (figure, study) => {
+    const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools");
+    const { t, axes } = study.learning;
+    const lines = [{ name: "true acceleration", tint: "--f6" }, { name: "error of its estimate, root mean square", tint: "--f1" }];
+    const svg = (fixed) => {
+      const full = fixed || Math.max(330, Math.min(plots.clientWidth || 900, 1000)), across = full > 600 ? 3 : 1, width = full / across, height = 270;
+      const legend = key(lines.map((l) => ({ ...l, tint: css(l.tint) })), full);
+      const inner = axes.map((axis, i) => {
+        const size = [axis.truth.map((v) => (v === null ? null : Math.abs(v))), axis.error];
+        const [low, high] = padded(extent(size.map((list) => list.map((v) => (v > 0 ? v : null))), () => true) ?? [0.1, 1], true);
+        return panel({ width, height, left: (i % across) * width, top: legend.height + Math.floor(i / across) * height, title: `d, ${axis.name}`,
+          x: { low: 0, high: t[t.length - 1], label: "time", unit: "s" }, y: { low: Math.max(low, high / 1e6), high, log: true, label: "acceleration", unit: "m/s²" },
+          series: size.map((y, k) => ({ x: t, y, tint: css(lines[k].tint), width: 1.2 })) });
+      });
+      return picture(full, legend.height + Math.ceil(axes.length / across) * height, legend.inner + inner.join(""));
+    };
+    exports(tools, "learning_curve", () => [["time [s]", ...axes.flatMap((a) => [`true d ${a.name} [m/s²]`, `error of d ${a.name} [m/s²]`])], ...t.map((at, i) => [at, ...axes.flatMap((a) => [a.truth[i], a.error[i]])])], () => svg(900));
+    return () => { plots.innerHTML = svg(0); };
   };
 
   const consistency = (figure, study) => {
@@ -311,23 +566,17 @@
     const shown = filters.map(() => true);
     let live = [];
     const kinds = [["nees", "NEES / states"], ["nis", "NIS / rows"]];
-    const times = [...new Set(filters.flatMap((f) => f.series.t))].sort((a, b) => a - b);
-    const aligned = (f, kind) => {
-      if (f.series.t.length === times.length) return f.series[kind];
-      const at = new Map(f.series.t.map((t, i) => [t, f.series[kind][i]]));
-      return times.map((t) => at.get(t) ?? null);
-    };
-    const data = Object.fromEntries(kinds.map(([kind]) => [kind, filters.map((f) => aligned(f, kind).map((v) => (v > 0 ? v : null)))]));
+    const times = timesOf(filters);
+    const data = Object.fromEntries(kinds.map(([kind]) => [kind, filters.map((f) => aligned(times, f, f.series[kind]).map((v) => (v > 0 ? v : null)))]));
     const bounds = (kind) => filters.find((f, i) => shown[i] && f[`${kind}_bounds`])?.[`${kind}_bounds`];
     const range = (kind) => padded(extent([...data[kind].filter((d, i) => shown[i]), bounds(kind) ?? [1]].map((a) => a), (i) => times.length < 3 || i < 2 || times[i] >= study.scored_from_s) ?? [0.1, 10], true);
     const draw = () => {
       const zoom = live[0]?.scales.x;
-      live.forEach((u) => u.destroy());
-      made = made.filter(({ u }) => !live.includes(u));
+      forget(live);
       plots.replaceChildren();
       live = kinds.map(([kind, name], index) => timePlot(plots, {
-        group: `${study.id}-consistency`, data: [times, ...data[kind]], range: range(kind), log: true, label: name, unit: "1", height: 230,
-        events: study.events, last: index === 1, bounds: () => bounds(kind),
+        study, data: [times, ...data[kind]], range: range(kind), log: true, label: name, unit: "1", height: 230,
+        last: index === 1, bounds: () => bounds(kind),
         series: filters.map((f, i) => ({ name: f.name, tint: colour(f.index), dash: dash(f.index), width: 1.1, show: shown[i] })),
         hover: (u) => {
           const i = u.cursor.idx;
@@ -335,7 +584,7 @@
           readout.textContent = `t = ${trimmed(times[i])} s, ${name}: ` + filters.filter((f, k) => shown[k]).map((f) => `${f.name} ${short(data[kind][filters.indexOf(f)][i])}`).join(", ");
         },
       }));
-      if (zoom && zoom.min > times[0]) live.forEach((u) => u.setScale("x", { min: zoom.min, max: zoom.max }));
+      rezoom(live, zoom);
     };
     filters.forEach((f, i) => toggle(tools, f.name, true, `--f${f.index % 8}`, (on) => { shown[i] = on; draw(); }));
     exports(tools, `${study.scenario}_consistency`,
@@ -361,13 +610,17 @@
       plots.textContent = "There is no pair of filters with results.";
       return () => {};
     }
-    figure.querySelector(".reference").textContent = study.reference;
-    let chosen = 0;
-    const rows = () => study.forest.filter((f) => f.quantity === quantities[chosen][0]);
+    const references = study.filters.map((f) => f.name).filter((name) => study.forest.some((f) => f.reference === name || f.filter === name));
+    const pairs = study.forest.some((f) => f.reference !== study.forest[0].reference);
+    let chosen = 0, against = null;
+    const turned = (f) => ({ ...f, filter: f.reference, reference: f.filter, mean: -f.mean, low: f.low === null ? null : -f.high, high: f.high === null ? null : -f.low });
+    const rows = () => study.forest.filter((f) => f.quantity === quantities[chosen][0]).flatMap((f) =>
+      (against === null || f.reference === against ? [f] : f.filter === against ? [turned(f)] : []));
+    const pair = (f) => `${f.filter} − ${f.reference}`;
     const svg = () => {
       const all = rows(), unit = quantities[chosen][1];
-      const width = Math.max(330, Math.min(plots.clientWidth || 900, 1000)), line = 30, top = 14;
-      const left = Math.min(30 + 7 * Math.max(...all.map((f) => f.filter.length)), 0.38 * width), right = width > 600 ? 190 : 14;
+      const width = Math.max(330, Math.min(plots.clientWidth || 900, 1000)), narrow = width <= 600, line = narrow ? 42 : 30, top = 14;
+      const left = narrow ? 14 : Math.min(30 + 7 * Math.max(...all.map((f) => pair(f).length)), 0.42 * width), right = narrow ? 14 : 190;
       const height = top + line * all.length + 46;
       const ends = all.flatMap((f) => [f.low ?? f.mean, f.high ?? f.mean, f.mean]);
       const largest = Math.max(...ends.map(Math.abs)) || 1;
@@ -396,13 +649,13 @@
       const base = top + line * all.length;
       const grid = at.map((v) => tag("line", { x1: px(v), x2: px(v), y1: top, y2: base, stroke: css("--grid") }) + label(px(v), base + 16, name(v), { "text-anchor": "middle" }));
       const marks = all.map((f, i) => {
-        const y = top + line * (i + 0.5), index = study.filters.findIndex((o) => o.name === f.filter), tint = colour(index);
+        const y = top + line * (i + (narrow ? 0.7 : 0.5)), index = study.filters.findIndex((o) => o.name === f.filter), tint = colour(index);
         const interval = f.low === null ? "" : tag("line", { x1: px(f.low), x2: px(f.high), y1: y, y2: y, stroke: tint, "stroke-width": 2 }) +
           [f.low, f.high].map((v) => tag("line", { x1: px(v), x2: px(v), y1: y - 5, y2: y + 5, stroke: tint, "stroke-width": 2 })).join("");
         const text = `${short(f.mean)}${f.low === null ? "" : ` (${short(f.low)}, ${short(f.high)})`}`;
-        return tag("g", {}, tag("title", {}, escaped(`${f.filter} minus ${study.reference}: ${text} ${unit}, ${f.runs} runs`)) +
+        return tag("g", {}, tag("title", {}, escaped(`${pair(f)}: ${text} ${unit}, ${f.runs} runs`)) +
           tag("rect", { x: 0, y: y - line / 2, width, height: line, fill: "transparent" }) +
-          label(left - 12, y + 4, f.filter, { "text-anchor": "end" }) + interval +
+          label(narrow ? left : left - 12, narrow ? y - 14 : y + 4, pair(f), { "text-anchor": narrow ? "start" : "end" }) + interval +
           tag("circle", { cx: px(f.mean), cy: y, r: 4.5, fill: tint }) + (width > 600 ? label(width - right + 14, y + 4, text, { fill: css("--soft") }) : ""));
       });
       return picture(width, height, grid.join("") + tag("line", { x1: px(0), x2: px(0), y1: top, y2: base, stroke: css("--ink") }) + marks.join("") +
@@ -411,7 +664,8 @@
     };
     const draw = () => { plots.innerHTML = svg(); };
     tabs(tools, quantities.map(([name]) => name), 0, (index) => { chosen = index; draw(); });
-    exports(tools, `${study.scenario}_paired`, () => [["filter", "reference", "quantity", "unit", "runs", "mean difference", "low", "high"], ...rows().map((f) => [f.filter, study.reference, f.quantity, f.unit, f.runs, f.mean, f.low, f.high])], svg);
+    if (pairs) tabs(tools, ["every pair", ...references], 0, (index) => { against = index ? references[index - 1] : null; draw(); });
+    exports(tools, `${study.scenario}_paired`, () => [["filter", "reference", "quantity", "unit", "runs", "mean difference", "low", "high"], ...rows().map((f) => [f.filter, f.reference, f.quantity, f.unit, f.runs, f.mean, f.low, f.high])], svg);
     return draw;
   };
 
@@ -460,22 +714,29 @@
     return draw;
   };
 
-  const sortable = (figure, study) => {
+  const sortable = (figure, study, name) => {
     const table = figure.querySelector("table"), body = table.tBodies[0], heads = [...table.tHead.rows[0].cells];
-    heads.forEach((head, column) => head.querySelector("button").addEventListener("click", () => {
-      const ascending = head.getAttribute("aria-sort") !== "ascending";
-      heads.forEach((other) => other.removeAttribute("aria-sort"));
-      head.setAttribute("aria-sort", ascending ? "ascending" : "descending");
-      const value = (row) => (column === 0 ? row.cells[0].textContent : row.cells[column].dataset.value);
+    const sort = () => {
+      const column = heads.findIndex((head) => head.hasAttribute("aria-sort"));
+      if (column < 0) return;
+      const ascending = heads[column].getAttribute("aria-sort") === "ascending";
+      const value = (row) => row.cells[column].dataset.value ?? row.cells[column].textContent;
       const sign = ascending ? 1 : -1;
       body.append(...[...body.rows].sort((a, b) => {
         const [x, y] = [value(a), value(b)];
         // What is absent comes last, whichever way.
         if (x === "" || y === "") return (x === "") - (y === "");
-        return sign * (column === 0 ? x.localeCompare(y) : x - y);
+        return sign * (isFinite(x) && isFinite(y) ? x - y : x.localeCompare(y));
       }));
+    };
+    heads.forEach((head) => head.querySelector("button").addEventListener("click", () => {
+      const ascending = head.getAttribute("aria-sort") !== "ascending";
+      heads.forEach((other) => other.removeAttribute("aria-sort"));
+      head.setAttribute("aria-sort", ascending ? "ascending" : "descending");
+      sort();
     }));
-    exports(figure.querySelector(".tools"), `${study.scenario}_summary`, () => [heads.map((h) => h.textContent), ...[...body.rows].map((row) => [...row.cells].map((c) => c.dataset.value ?? c.textContent))]);
+    exports(figure.querySelector(".tools"), name, () => [heads.map((h) => h.textContent), ...[...body.rows].map((row) => [...row.cells].map((c) => c.dataset.value ?? c.textContent))]);
+    return sort;
   };
 
   // ---- all of it
@@ -485,8 +746,8 @@
       const found = article.querySelector(`figure.${name}`);
       return found ? [make(found, study)] : [];
     };
-    sortable(article.querySelector("figure.summary"), study);
-    return [...figure("errors", errors), ...figure("consistency", consistency), ...figure("forest", forest), ...figure("cdf", cdf)];
+    sortable(article.querySelector("figure.summary"), study, `${study.scenario}_summary`);
+    return [...figure("learning", learning), ...figure("search", search), ...figure("cases", matrix("cases")), ...figure("phases", matrix("phases")), ...figure("window", windowed), ...figure("errors", errors), ...figure("noise", noise), ...figure("path", path), ...figure("consistency", consistency), ...figure("forest", forest), ...figure("cdf", cdf)];
   });
   const themeButton = document.getElementById("theme");
   const dress = (dark) => {
@@ -500,8 +761,8 @@
   themeButton.addEventListener("click", () => { dark = !dark; dress(dark); });
   prefersDark.addEventListener("change", (event) => { dark = event.matches; dress(dark); });
   // Paper is white.
-  addEventListener("beforeprint", () => dress(false));
-  addEventListener("afterprint", () => dress(dark));
+  addEventListener("beforeprint", () => { root.dataset.print = ""; dress(false); });
+  addEventListener("afterprint", () => { delete root.dataset.print; dress(dark); });
   let width = innerWidth;
   addEventListener("resize", () => {
     resize();

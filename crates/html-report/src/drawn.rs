@@ -12,8 +12,9 @@ use plotters::style::FontStyle;
 
 use crate::ReportError;
 use crate::events::Event;
-use crate::figures::{self, Figures, FilterFigures};
+use crate::figures::{self, Figures, FilterFigures, Forest};
 use crate::folder::Folder;
+use crate::kept::{KeptRuns, Path as TruePath};
 use crate::number::significant;
 use crate::series::{AxisSeries, QuantitySeries, Series};
 
@@ -41,6 +42,7 @@ const COLOURS: [RGBColor; 7] = [
 const SAMPLE: (&str, RGBColor) = ("3 sigma of the errors", COLOURS[0]);
 const ESTIMATED: (&str, RGBColor) = ("3 sigma as estimated", COLOURS[1]);
 const MEAN: (&str, RGBColor) = ("mean error", COLOURS[6]);
+const RUNS: (&str, RGBColor) = ("single runs", RGBColor(200, 200, 200));
 
 /// Where systems keep a sans-serif font.
 const FONTS: [&str; 6] = [
@@ -72,16 +74,24 @@ pub fn drawn(folder: &Path, format: Format) -> Result<Vec<(String, Vec<u8>)>, Re
         for filter in &figures.filters {
             if let Some(series) = &filter.series {
                 add(&format!("error_{}", filter.name), (1200, 780), &|to| {
-                    to.errors(&figures, series)
+                    to.errors(&figures, series, filter.kept.as_ref())
                 })?;
             }
         }
         if figures.filters.iter().any(|f| f.series.is_some()) {
             add("consistency", (1000, 620), &|to| to.consistency(&figures))?;
         }
+        if figures.filters.iter().any(|f| f.jerk_root().is_some()) {
+            add("process_noise", (1200, 420), &|to| to.jerk_root(&figures))?;
+        }
+        if let Some(path) = &figures.path {
+            let rows = 1 + u32::from(!path.chaser.is_empty());
+            add("path", (1100, 420 * rows), &|to| to.path(path))?;
+        }
         for (index, [quantity, _]) in figures.errors.iter().enumerate() {
-            if figures.forest.iter().any(|f| f.quantity == *quantity) {
-                add(&format!("paired_{quantity}"), (900, 360), &|to| {
+            let pairs = figures.forest.iter().filter(|f| f.quantity == *quantity).count() as u32;
+            if pairs > 0 {
+                add(&format!("paired_{quantity}"), (900, 120 + 40 * pairs), &|to| {
                     to.forest(&figures, index)
                 })?;
             }
@@ -130,7 +140,9 @@ fn picture(
 
 /// What can be drawn, on whichever canvas.
 trait Draw {
-    fn errors(&mut self, figures: &Figures, series: &Series) -> Result<(), ReportError>;
+    fn errors(&mut self, figures: &Figures, series: &Series, kept: Option<&KeptRuns>) -> Result<(), ReportError>;
+    fn jerk_root(&mut self, figures: &Figures) -> Result<(), ReportError>;
+    fn path(&mut self, path: &TruePath) -> Result<(), ReportError>;
     fn consistency(&mut self, figures: &Figures) -> Result<(), ReportError>;
     fn forest(&mut self, figures: &Figures, quantity: usize) -> Result<(), ReportError>;
     fn cdf(&mut self, figures: &Figures, quantity: usize) -> Result<(), ReportError>;
@@ -278,6 +290,7 @@ where
         t: &[f64],
         quantity: &QuantitySeries,
         axis: &AxisSeries,
+        kept: Option<&KeptRuns>,
     ) -> Result<(), ReportError> {
         let kinds: [(&[Option<f64>], f64, RGBColor); 5] = [
             (&axis.sample, 3.0, SAMPLE.1),
@@ -293,7 +306,15 @@ where
         });
         let y = range(&lines, figures.scored_from_s);
         // What is outside of the range of the scored time comes before it.
-        let lines = lines.into_iter().map(|line| Line {
+        let runs = kept.into_iter().flat_map(|kept| {
+            let values = kept.columns.get(&axis.column).map_or(&[][..], |c| c.0.as_slice());
+            values.chunks(kept.t.len()).map(|run| Line {
+                points: points(&kept.t, run, 1.0),
+                colour: RUNS.1,
+                width: 1,
+            })
+        });
+        let lines = runs.chain(lines).map(|line| Line {
             points: line.points.into_iter().filter(|p| y.contains(&p.1)).collect(),
             ..line
         });
@@ -382,13 +403,13 @@ impl<B: DrawingBackend> Draw for Canvas<B>
 where
     B::ErrorType: 'static,
 {
-    fn errors(&mut self, figures: &Figures, series: &Series) -> Result<(), ReportError> {
-        let room = self.legend([MEAN, SAMPLE, ESTIMATED])?;
+    fn errors(&mut self, figures: &Figures, series: &Series, kept: Option<&KeptRuns>) -> Result<(), ReportError> {
+        let room = self.legend([MEAN, SAMPLE, ESTIMATED].into_iter().chain(kept.map(|_| RUNS)))?;
         let rows = room.split_evenly((series.quantities.len().max(1), 1));
         for (row, quantity) in rows.iter().zip(&series.quantities) {
             let areas = row.split_evenly((1, quantity.axes.len()));
             for (area, axis) in areas.iter().zip(&quantity.axes) {
-                self.axis(area, figures, &series.t, quantity, axis)?;
+                self.axis(area, figures, &series.t, quantity, axis, kept)?;
             }
         }
         self.root.present().map_err(failed)
@@ -430,6 +451,81 @@ where
         self.root.present().map_err(failed)
     }
 
+    fn jerk_root(&mut self, figures: &Figures) -> Result<(), ReportError> {
+        let room = self.legend(filters(figures))?;
+        for (axis, area) in room.split_evenly((1, 3)).iter().enumerate() {
+            let lines = figures.filters.iter().enumerate().filter_map(|(index, filter)| {
+                let values = &filter.jerk_root()?[axis].0;
+                let t = &filter.series.as_ref()?.t;
+                let mut points = points(t, values, 1.0);
+                points.retain(|p| p.1 > 0.0);
+                points.iter_mut().for_each(|p| p.1 = p.1.log10());
+                Some(Line {
+                    points,
+                    colour: colour(index),
+                    width: 1,
+                })
+            });
+            let lines: Vec<Line> = lines.collect();
+            let name = ["x", "y", "z"][axis];
+            self.panel(
+                area,
+                Panel {
+                    x: (0.0..figures.duration_s, "time [s]".to_owned()),
+                    y: (range(&lines, 0.0), format!("root of q, {name} [m/s^2.5]")),
+                    powers: (false, true),
+                    lines,
+                    events: &figures.events,
+                    band: None,
+                },
+            )?;
+        }
+        self.root.present().map_err(failed)
+    }
+
+    fn path(&mut self, path: &TruePath) -> Result<(), ReportError> {
+        let room = self.legend([("true path of run 0", COLOURS[6])])?;
+        let orbit = !path.chaser.is_empty();
+        let areas = room.split_evenly((1 + usize::from(orbit), 2));
+        let axes = &path.axes;
+        let mut panels: Vec<_> = [(1, 0), (1, 2)]
+            .map(|at| (&path.relative, axes[at.0].as_str(), axes[at.1].as_str(), at))
+            .into();
+        if orbit {
+            panels.extend([(0, 2), (1, 2)].map(|at| (&path.chaser, ["x", "y"][at.0], "z", at)));
+        }
+        for (area, (values, across, up, (a, b))) in areas.iter().zip(panels) {
+            let both = values[a].iter().zip(&values[b]);
+            let points: Vec<(f64, f64)> = both.filter_map(|(a, b)| Option::zip(*a, *b)).collect();
+            let extent = |of: &dyn Fn(&(f64, f64)) -> f64| {
+                let line = Line {
+                    points: points.iter().map(|p| (0.0, of(p))).collect(),
+                    colour: BLACK,
+                    width: 1,
+                };
+                range(&[line], 0.0)
+            };
+            let (x, y) = (extent(&|p| p.0), extent(&|p| p.1));
+            let line = Line {
+                points,
+                colour: COLOURS[6],
+                width: 2,
+            };
+            self.panel(
+                area,
+                Panel {
+                    x: (x, format!("{across} [m]")),
+                    y: (y, format!("{up} [m]")),
+                    powers: (false, false),
+                    lines: vec![line],
+                    events: &[],
+                    band: None,
+                },
+            )?;
+        }
+        self.root.present().map_err(failed)
+    }
+
     fn forest(&mut self, figures: &Figures, quantity: usize) -> Result<(), ReportError> {
         let [quantity, unit] = figures.errors[quantity];
         let rows: Vec<_> = figures.forest.iter().rev().filter(|f| f.quantity == quantity).collect();
@@ -449,11 +545,12 @@ where
             .margin(8 * self.scale)
             .margin_right(30 * self.scale)
             .x_label_area_size(42 * self.scale)
-            .y_label_area_size(170 * self.scale)
+            .y_label_area_size(250 * self.scale)
             .build_cartesian_2d(Axis::new(&x, false), (0..rows.len().saturating_sub(1)).into_segmented())
             .map_err(failed)?;
+        let pair = |f: &&Forest| format!("{} − {}", f.filter, f.reference);
         let name = |at: &SegmentValue<usize>| match at {
-            SegmentValue::CenterOf(i) => rows.get(*i).map(|f| f.filter.clone()).unwrap_or_default(),
+            SegmentValue::CenterOf(i) => rows.get(*i).map(pair).unwrap_or_default(),
             _ => String::new(),
         };
         chart
@@ -461,10 +558,7 @@ where
             .light_line_style(TRANSPARENT)
             .bold_line_style(RGBColor(225, 225, 225))
             .disable_y_mesh()
-            .x_desc(format!(
-                "{quantity} RMSE of a run minus that of {}, 95 % interval [{unit}]",
-                figures.reference
-            ))
+            .x_desc(format!("difference of {quantity} RMSE, 95 % interval [{unit}]"))
             .x_label_formatter(&|v| tick(*v))
             .y_label_formatter(&name)
             .y_labels(rows.len() + 1)

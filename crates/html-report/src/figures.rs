@@ -7,16 +7,23 @@ use stats::{Bounds, mean_chi_square_bounds};
 use crate::ReportError;
 use crate::events::{Event, events};
 use crate::folder::{Folder, Row, StudyFacts};
-use crate::series::{Series, series};
+use crate::kept::{KeptRuns, Path, kept_runs, path};
+use crate::matrix::Matrix;
+use crate::search::{Search, searches};
+use crate::series::{Column, Series, series};
+use crate::window::{Window, window};
 
 /// Most points of a curve.
 const POINTS: usize = 1000;
 
-/// Most numbers in all curves of a page: some 3 MB.
+/// Most numbers in all curves of a page: some 1.6 MB.
 const NUMBERS: usize = 400_000;
 
-/// Curves of a filter: three quantities, three axes, three kinds; NEES and NIS.
-const CURVES: usize = 29;
+/// Most numbers of single runs: some 1.8 MB.
+const RUN_NUMBERS: usize = 450_000;
+
+/// Curves of a filter: three quantities, three axes, three kinds; NEES, NIS and three of q.
+const CURVES: usize = 32;
 
 /// Two-sided probability of bounds and intervals.
 const CONFIDENCE: f64 = 0.95;
@@ -37,7 +44,13 @@ pub(crate) struct Figures {
     pub duration_s: f64,
     pub events: Vec<Event>,
     pub filters: Vec<FilterFigures>,
-    pub reference: String,
+    pub path: Option<Path>,
+    /// Position RMSE by phase.
+    pub phases: Option<Matrix>,
+    /// Position RMSE by case, with the first case of a world that has several.
+    pub cases: Option<Matrix>,
+    /// What `tune` tried, with the first case of a world.
+    pub search: Vec<Search>,
     pub forest: Vec<Forest>,
     pub errors: Vec<[&'static str; 2]>,
 }
@@ -46,6 +59,8 @@ pub(crate) struct Figures {
 pub(crate) struct FilterFigures {
     pub name: String,
     pub series: Option<Series>,
+    pub kept: Option<KeptRuns>,
+    pub window: Option<Window>,
     pub nees_bounds: Option<[f64; 2]>,
     pub nis_bounds: Option<[f64; 2]>,
     pub runs: u32,
@@ -53,10 +68,18 @@ pub(crate) struct FilterFigures {
     pub sorted: Vec<Vec<f64>>,
 }
 
+impl FilterFigures {
+    /// Mean over the runs of the root of the jerk density, by axis.
+    pub fn jerk_root(&self) -> Option<&[Column; 3]> {
+        self.series.as_ref()?.jerk_root.as_ref()
+    }
+}
+
 /// A mean difference with its interval.
 #[derive(Serialize)]
 pub(crate) struct Forest {
     pub filter: String,
+    pub reference: String,
     pub quantity: &'static str,
     pub unit: &'static str,
     pub runs: u64,
@@ -70,20 +93,27 @@ pub(crate) fn all(folder: &Folder) -> Result<Vec<Figures>, ReportError> {
     let studies = &folder.manifest.studies;
     let filters: usize = studies.iter().map(|s| s.filters.len()).sum();
     let points = (NUMBERS / (CURVES * filters.max(1))).clamp(50, POINTS);
+    let of_runs = RUN_NUMBERS / filters.max(1);
     let figures = studies.iter().enumerate();
     figures
-        .map(|(index, study)| figures_of(folder, study, index, points))
+        .map(|(index, study)| figures_of(folder, study, index, [points, of_runs]))
         .collect()
 }
 
-fn figures_of(folder: &Folder, study: &StudyFacts, index: usize, points: usize) -> Result<Figures, ReportError> {
+fn figures_of(folder: &Folder, study: &StudyFacts, index: usize, room: [usize; 2]) -> Result<Figures, ReportError> {
     let summary = folder.summary(study);
     let mut filters = Vec::new();
     for row in &summary {
-        filters.push(filter_figures(folder, study, row, points)?);
+        filters.push(filter_figures(folder, study, row, room)?);
     }
     let paired = folder.paired(study);
-    let reference = paired.first().map_or("", |r| r.text("reference")).to_owned();
+    let file = folder.path(study)?;
+    let first = !folder
+        .manifest
+        .studies
+        .iter()
+        .take(index)
+        .any(|s| s.scenario == study.scenario);
     Ok(Figures {
         id: format!("s{index}"),
         scenario: study.scenario.clone(),
@@ -91,16 +121,25 @@ fn figures_of(folder: &Folder, study: &StudyFacts, index: usize, points: usize) 
         duration_s: study.duration_s,
         events: events(&study.mission),
         filters,
-        forest: (paired.iter())
-            .filter(|row| row.text("reference") == reference)
-            .filter_map(|row| forest(row))
-            .collect(),
-        reference,
+        path: file.and_then(|file| path(&file, &study.mission["environment"]["gravity"])),
+        phases: Matrix::new(&folder.phases(study), "phase"),
+        cases: Matrix::new(&folder.cases(&study.scenario), "case").filter(|_| first),
+        search: if first {
+            searches(&folder.search(&study.scenario))
+        } else {
+            Vec::new()
+        },
+        forest: paired.iter().filter_map(|row| forest(row)).collect(),
         errors: ERRORS.iter().map(|(_, name, unit)| [*name, *unit]).collect(),
     })
 }
 
-fn filter_figures(folder: &Folder, study: &StudyFacts, row: &Row, points: usize) -> Result<FilterFigures, ReportError> {
+fn filter_figures(
+    folder: &Folder,
+    study: &StudyFacts,
+    row: &Row,
+    [points, of_runs]: [usize; 2],
+) -> Result<FilterFigures, ReportError> {
     let name = row.text("filter");
     let epochs = folder.epochs(study, name)?;
     let series = epochs.as_ref().and_then(|epochs| series(epochs, points));
@@ -119,28 +158,36 @@ fn filter_figures(folder: &Folder, study: &StudyFacts, row: &Row, points: usize)
         name: name.to_owned(),
         nees_bounds: Option::zip(row.number("nees_low"), row.number("nees_high")).map(|(low, high)| [low, high]),
         nis_bounds: nis_bounds.map(|Bounds { low, high }| [low, high]),
+        kept: folder
+            .run_errors(study, name)?
+            .and_then(|file| kept_runs(&file, of_runs)),
+        window: epochs.as_ref().and_then(|epochs| window(epochs, study.scored_from_s)),
         series,
         runs: study.runs,
         sorted: ERRORS.iter().map(sorted).collect(),
     })
 }
 
-/// A row of `paired.csv` with the interval of Student's t.
+/// A row of `paired.csv` with its interval, or where it tells none that of Student's t about the mean over the runs.
 fn forest(row: &Row) -> Option<Forest> {
     let (_, quantity, unit) = *ERRORS.iter().find(|(column, ..)| *column == row.text("quantity"))?;
-    let mean = row.number("mean_difference")?;
     let runs = row.count("runs");
+    let told = Option::zip(row.number("low"), row.number("high"));
+    let mean = told
+        .and_then(|_| row.number("difference"))
+        .or(row.number("mean_difference"))?;
     let half = row.number("standard_error").and_then(|error| {
         let t = StudentsT::new(0.0, 1.0, runs.checked_sub(1)? as f64).ok()?;
         Some(error * t.inverse_cdf(0.5 * (1.0 + CONFIDENCE)))
     });
     Some(Forest {
         filter: row.text("filter").to_owned(),
+        reference: row.text("reference").to_owned(),
         quantity,
         unit,
         runs,
         mean,
-        low: half.map(|h| mean - h),
-        high: half.map(|h| mean + h),
+        low: told.map(|t| t.0).or(half.map(|h| mean - h)),
+        high: told.map(|t| t.1).or(half.map(|h| mean + h)),
     })
 }

@@ -73,6 +73,9 @@ pub(crate) struct Folder {
     runs: Vec<Row>,
     paired: Vec<Row>,
     failures: Vec<Row>,
+    phases: Vec<Row>,
+    requirements: Vec<Row>,
+    search: Vec<Row>,
 }
 
 impl Folder {
@@ -101,6 +104,17 @@ impl Folder {
                 &["scenario", "filter", "quantity", "mean_difference"],
             )?,
             failures: table(path, "failures.csv", &["scenario", "filter", "run", "message"])?,
+            phases: table_if_there(
+                path,
+                "phases.csv",
+                &["scenario", "filter", "case", "phase", "pos_rmse_m"],
+            )?,
+            requirements: table_if_there(path, "requirements.csv", &["scenario", "filter", "metric", "verdict"])?,
+            search: table_if_there(
+                path,
+                "search.csv",
+                &["scenario", "filter", "values", "ranges", "value", "feasible"],
+            )?,
         })
     }
 
@@ -122,27 +136,63 @@ impl Folder {
         self.failures.iter().filter(|r| r.is_of(study)).collect()
     }
 
-    /// Header and rows of the file over time of a filter; `None` when the folder came without it.
-    pub fn epochs(&self, study: &StudyFacts, filter: &str) -> Result<Option<Epochs>, ReportError> {
-        let name = format!("epochs/{}_{filter}_{}.csv", study.scenario, study.case);
-        let path = self.path.join(name);
-        let wrong = |source| ReportError::Table {
-            path: path.clone(),
-            source,
-        };
-        if !path.is_file() {
-            return Ok(None);
-        }
-        let mut reader = csv::Reader::from_path(&path).map_err(wrong)?;
-        let header: Vec<String> = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
-        let mut columns = vec![Vec::new(); header.len()];
-        for record in reader.records() {
-            for (column, cell) in columns.iter_mut().zip(&record.map_err(wrong)?) {
-                column.push(cell.parse::<f64>().ok());
-            }
-        }
-        Ok(Some(Epochs { header, columns }))
+    pub fn phases(&self, study: &StudyFacts) -> Vec<&Row> {
+        self.phases.iter().filter(|r| r.is_of(study)).collect()
     }
+
+    pub fn requirements(&self, study: &StudyFacts) -> Vec<&Row> {
+        self.requirements.iter().filter(|r| r.is_of(study)).collect()
+    }
+
+    /// Candidates of the searches in a world.
+    pub fn search(&self, scenario: &str) -> Vec<&Row> {
+        self.search.iter().filter(|r| r.text("scenario") == scenario).collect()
+    }
+
+    /// Rows of `summary.csv` of a world, in all cases.
+    pub fn cases(&self, scenario: &str) -> Vec<&Row> {
+        self.summary.iter().filter(|r| r.text("scenario") == scenario).collect()
+    }
+
+    /// The file over time of a filter; `None` when the folder came without it.
+    pub fn epochs(&self, study: &StudyFacts, filter: &str) -> Result<Option<Epochs>, ReportError> {
+        self.over_time(&format!("epochs/{}_{filter}_{}.csv", study.scenario, study.case))
+    }
+
+    /// The errors of single runs of a filter.
+    pub fn run_errors(&self, study: &StudyFacts, filter: &str) -> Result<Option<Epochs>, ReportError> {
+        self.over_time(&format!("run_errors/{}_{filter}_{}.csv", study.scenario, study.case))
+    }
+
+    /// The true path of run 0.
+    pub fn path(&self, study: &StudyFacts) -> Result<Option<Epochs>, ReportError> {
+        self.over_time(&format!("paths/{}_{}.csv", study.scenario, study.case))
+    }
+
+    fn over_time(&self, name: &str) -> Result<Option<Epochs>, ReportError> {
+        over_time(&self.path, name)
+    }
+}
+
+/// A file over time; `None` when there is none.
+pub(crate) fn over_time(folder: &Path, name: &str) -> Result<Option<Epochs>, ReportError> {
+    let path = folder.join(name);
+    let wrong = |source| ReportError::Table {
+        path: path.clone(),
+        source,
+    };
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let mut reader = csv::Reader::from_path(&path).map_err(wrong)?;
+    let header: Vec<String> = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
+    let mut columns = vec![Vec::new(); header.len()];
+    for record in reader.records() {
+        for (column, cell) in columns.iter_mut().zip(&record.map_err(wrong)?) {
+            column.push(cell.parse::<f64>().ok());
+        }
+    }
+    Ok(Some(Epochs { header, columns }))
 }
 
 /// A file over time: each column with `None` where its cell is empty.
@@ -170,7 +220,16 @@ fn contents(folder: &Path, name: &'static str) -> Result<Vec<u8>, ReportError> {
     })
 }
 
-fn table(folder: &Path, name: &'static str, needed: &[&'static str]) -> Result<Vec<Row>, ReportError> {
+/// No rows where there is no file.
+fn table_if_there(folder: &Path, name: &'static str, needed: &[&'static str]) -> Result<Vec<Row>, ReportError> {
+    if folder.join(name).is_file() {
+        table(folder, name, needed)
+    } else {
+        Ok(Vec::new())
+    }
+}
+
+pub(crate) fn table(folder: &Path, name: &'static str, needed: &[&'static str]) -> Result<Vec<Row>, ReportError> {
     let bytes = contents(folder, name)?;
     let path = folder.join(name);
     let wrong = |source| ReportError::Table {

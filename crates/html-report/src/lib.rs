@@ -1,20 +1,27 @@
 //! One self-contained HTML page from the folder of a study.
 //!
 //! The page is made of the files alone (`manifest.json`, `summary.csv`, `runs.csv`, `paired.csv`, `failures.csv`,
-//! `epochs/*.csv`), so that a folder that somebody has sent gives the same page. It asks no host for anything.
+//! `epochs/*.csv`, and where they are there `run_errors/*.csv`, `paths/*.csv`, `phases.csv`, `requirements.csv`, `search.csv`), so that a folder that somebody has sent gives the same page. It asks no host for anything.
 //!
 //! Start reading at [`html`]; [`Verdict`] says which filter is best and how surely, [`drawn`] draws the same figures as
-//! files. Inside, `figures` gathers what is drawn, `series` thins curves over time, and `page` fills the template.
+//! files. Inside, `figures` gathers what is drawn, `series` thins curves over time, `window` sums what
+//! the page makes errors of any stretch of time of, `pack` writes numbers short, and `page` fills the template.
 
 mod drawn;
 mod error;
 mod events;
 mod figures;
 mod folder;
+mod kept;
+mod matrix;
 mod number;
+mod pack;
 mod page;
+mod reproduced;
+mod search;
 mod series;
 mod verdict;
+mod window;
 
 use std::path::Path;
 
@@ -23,12 +30,15 @@ pub use error::ReportError;
 pub use number::short;
 pub use verdict::{Rival, RunValues, Verdict};
 
-/// The page of a study.
+/// The page of a folder.
 ///
-/// * `folder`: where `compare` has written.
+/// * `folder`: where `compare`, `tune` or `reproduce` has written.
 ///
 /// # Errors
 /// [`ReportError`]: the folder holds no study, or a file of it cannot be understood.
 pub fn html(folder: &Path) -> Result<String, ReportError> {
+    if folder.join(reproduced::TABLE).is_file() {
+        return reproduced::render(folder);
+    }
     page::render(&folder::Folder::read(folder)?)
 }

@@ -4,7 +4,7 @@ use askama::Template;
 use serde_json::Value;
 
 use crate::ReportError;
-use crate::figures::{self, Figures};
+use crate::figures::{self, Figures, FilterFigures};
 use crate::folder::{Folder, Manifest, Row, StudyFacts};
 use crate::number::short;
 use crate::verdict::{RunValues, Verdict};
@@ -54,6 +54,9 @@ struct Section {
     deviations: Vec<String>,
     facts: Vec<[String; 2]>,
     badges: Vec<Badges>,
+    requirements: Vec<Requirement>,
+    identity: String,
+    short_identity: String,
     headings: Vec<[&'static str; 2]>,
     rows: Vec<TableRow>,
     worst: Vec<Worst>,
@@ -63,6 +66,20 @@ struct Section {
     has_events: bool,
     drawn_events: bool,
     has_nis_bounds: bool,
+    has_runs: bool,
+    has_jerk_root: bool,
+    has_path: bool,
+    has_phases: bool,
+    has_cases: bool,
+    has_search: bool,
+}
+
+/// A line of `requirements.csv`.
+struct Requirement {
+    met: bool,
+    filter: String,
+    text: String,
+    margin: String,
 }
 
 struct TableRow {
@@ -135,7 +152,22 @@ fn section(folder: &Folder, study: &StudyFacts, figures: &Figures) -> Result<Sec
         .iter()
         .filter_map(|f| Some(f.series.as_ref()?.every))
         .max();
+    let any = |has: fn(&FilterFigures) -> bool| figures.filters.iter().any(has);
     Ok(Section {
+        has_runs: any(|f| f.kept.is_some()),
+        has_jerk_root: any(|f| f.jerk_root().is_some()),
+        has_path: figures.path.is_some(),
+        has_phases: figures.phases.is_some(),
+        has_cases: figures.cases.is_some(),
+        has_search: !figures.search.is_empty(),
+        requirements: folder.requirements(study).into_iter().map(requirement).collect(),
+        short_identity: folder
+            .manifest
+            .identity
+            .iter()
+            .flat_map(|id| id.chars().take(12))
+            .collect(),
+        identity: folder.manifest.identity.clone().unwrap_or_default(),
         id: figures.id.clone(),
         scenario: study.scenario.clone(),
         case: study.case.clone(),
@@ -248,6 +280,29 @@ fn badges(row: &Row) -> Badges {
     Badges {
         filter: row.text("filter").to_owned(),
         marks,
+    }
+}
+
+/// A requirement in words: metric, phase, value and bounds.
+fn requirement(row: &Row) -> Requirement {
+    let mut text = row.text("metric").to_owned();
+    if !row.text("phase").is_empty() {
+        text.push_str(&format!(" in {}", row.text("phase")));
+    }
+    let value = |column: &str| row.number(column).map(|v| short(Some(v)).replace('-', "−"));
+    if let Some(value) = value("value") {
+        text.push_str(&format!(" {value} {}", row.text("unit")));
+    }
+    for (column, sign) in [("at_least", "≥"), ("at_most", "≤")] {
+        if let Some(bound) = value(column) {
+            text.push_str(&format!(", required {sign} {bound}"));
+        }
+    }
+    Requirement {
+        met: row.text("verdict") == "met",
+        filter: row.text("filter").to_owned(),
+        text,
+        margin: value("margin").map_or_else(String::new, |margin| format!("margin {margin} {}", row.text("unit"))),
     }
 }
 

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::folder::Epochs;
 use crate::number::significant;
+use crate::pack::pack;
 
 /// Significant digits of what a figure draws.
 const DIGITS: usize = 4;
@@ -17,8 +18,12 @@ pub(crate) struct Series {
     pub t: Vec<f64>,
     /// Position, velocity, acceleration, as far as the file has them.
     pub quantities: Vec<QuantitySeries>,
+    #[serde(serialize_with = "pack")]
     pub nees: Vec<Option<f64>>,
+    #[serde(serialize_with = "pack")]
     pub nis: Vec<Option<f64>>,
+    /// Mean over the runs of the root of the jerk density in axes N, m/s^2.5; `None` where the filter tells none.
+    pub jerk_root: Option<[Column; 3]>,
     /// Degrees of freedom of the NIS, where they are the same at all epochs.
     #[serde(skip)]
     pub residual_rows: Option<usize>,
@@ -35,10 +40,20 @@ pub(crate) struct QuantitySeries {
 #[derive(Debug, Serialize)]
 pub(crate) struct AxisSeries {
     pub axis: String,
+    #[serde(serialize_with = "pack")]
     pub mean: Vec<Option<f64>>,
+    #[serde(serialize_with = "pack")]
     pub sample: Vec<Option<f64>>,
+    #[serde(serialize_with = "pack")]
     pub estimated: Vec<Option<f64>>,
+    /// Name of the column of single runs.
+    pub column: String,
 }
+
+/// A curve.
+#[derive(Debug, Serialize)]
+#[serde(transparent)]
+pub(crate) struct Column(#[serde(serialize_with = "pack")] pub Vec<Option<f64>>);
 
 /// Prefix in the header, name, suffix, unit.
 const QUANTITIES: [(&str, &str, &str, &str); 3] = [
@@ -68,6 +83,7 @@ pub(crate) fn series(epochs: &Epochs, points: usize) -> Option<Series> {
             .map(|axis| {
                 let of = |kind: &str| column(&format!("{kind}{}{axis}{suffix}", &prefix["mean".len()..]));
                 AxisSeries {
+                    column: format!("{}{axis}{suffix}", &prefix["mean_".len()..]),
                     axis: axis.to_owned(),
                     mean: of("mean"),
                     sample: of("sample_sigma"),
@@ -78,19 +94,22 @@ pub(crate) fn series(epochs: &Epochs, points: usize) -> Option<Series> {
             .collect();
         (!axes.is_empty()).then_some(QuantitySeries { name, unit, axes })
     });
+    let jerk_root = [1, 2, 3].map(|i| Column(column(&format!("mean_q_s_{i}_m_s2_5"))));
+    let told = jerk_root.iter().any(|c| c.0.iter().flatten().any(|q| *q > 0.0));
     Some(Series {
         every,
         t: thinned_time(&time, every),
         quantities: quantities.collect(),
         nees: column("nees"),
         nis: column("nis"),
+        jerk_root: told.then_some(jerk_root),
         residual_rows: residual_rows(epochs),
     })
 }
 
 /// Rows of the residual at the epochs that have a NIS; `None` when they are not always the same number.
 fn residual_rows(epochs: &Epochs) -> Option<usize> {
-    let states = ["mean_pos_", "mean_vel_", "mean_acc_", "mean_bias_"];
+    let states = ["mean_pos_", "mean_vel_", "mean_acc_", "mean_bias_", "mean_q_"];
     let is_residual = |header: &str| header.starts_with("mean_") && !states.iter().any(|s| header.starts_with(s));
     let residuals: Vec<_> = epochs
         .header

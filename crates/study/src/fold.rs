@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use stats::{Ensemble, FLIPS, ScalarEnsemble, SignFlips};
 
 use crate::error::StudyError;
+use crate::kept::{KEPT_RUNS, KeptRun};
 use crate::phase_result::PhaseResult;
 use crate::record::{QUANTITIES, Quantity, Record};
 use crate::run::{Ending, Failure, SlaveTime};
@@ -74,6 +75,8 @@ pub struct FilterResult {
     /// Seed of the study.
     pub seed: i32,
     flips: SignFlips,
+    /// Thinned errors of the first runs that did not fail.
+    pub kept: Vec<KeptRun>,
     epochs: usize,
 }
 
@@ -104,6 +107,7 @@ impl FilterResult {
                 .collect(),
             seed,
             flips: SignFlips::new(epochs, first_scored),
+            kept: Vec::new(),
             epochs,
         }
     }
@@ -141,6 +145,9 @@ impl FilterResult {
                 if let [Some(position), Some(velocity)] = motion {
                     self.flips.add(record.epoch as usize, &[position, velocity], &signs);
                 }
+            }
+            if self.kept.len() < KEPT_RUNS {
+                self.kept.push(KeptRun::new(row.run, records, self.epochs));
             }
         }
         for phase in &mut self.phases {

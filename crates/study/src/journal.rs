@@ -210,6 +210,7 @@ mod tests {
             run,
             steps: 7,
             truth_time: SlaveTime::default(),
+            path: Vec::new(),
             parts: vec![Part {
                 row: RunRow::new(run, &[record], 0, &Ending::default()),
                 records: vec![record],

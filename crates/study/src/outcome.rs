@@ -1,6 +1,7 @@
 //! One run as a study keeps it: what each filter did in it, with every record that statistics are made of.
 
 use crate::fold::RunRow;
+use crate::kept::{Path, PathPoint};
 use crate::record::{self, Record};
 use crate::run::{SlaveTime, run_once};
 use crate::score::score;
@@ -15,6 +16,8 @@ pub struct Outcome {
     pub steps: u64,
     /// Time the truth took.
     pub truth_time: SlaveTime,
+    /// Where the vehicles truly were, thinned; of run 0 alone.
+    pub path: Vec<PathPoint>,
     /// By filter, in the order of the study.
     pub parts: Vec<Part>,
 }
@@ -35,11 +38,15 @@ impl Outcome {
     pub fn of(spec: &Spec, run: u32) -> Self {
         let epochs = spec.epochs();
         let mut records: Vec<_> = spec.filters.iter().map(|_| Vec::with_capacity(epochs)).collect();
+        let mut path = Path::new(spec);
         let report = run_once(spec, run, |filter, truth, estimate| {
             let mut record = score(&spec.world, truth, estimate)
                 .ok_or_else(|| format!("the axes of the results are undefined at {} s", truth.time))?;
             record.phases = spec.phases.of(truth);
             records[filter].push(record);
+            if run == 0 {
+                path.push(spec, truth);
+            }
             Ok(())
         });
         let first = spec.first_scored();
@@ -56,13 +63,14 @@ impl Outcome {
             run,
             steps: report.steps,
             truth_time: report.truth_time,
+            path: path.into_points(),
             parts: parts.collect(),
         }
     }
 }
 
 /// All of an outcome but its records.
-type Head = (u32, u64, SlaveTime, Vec<(RunRow, SlaveTime)>);
+type Head = (u32, u64, SlaveTime, Vec<PathPoint>, Vec<(RunRow, SlaveTime)>);
 
 impl Outcome {
     /// As bytes, behind those that are there; the number of the run comes first.
@@ -71,7 +79,7 @@ impl Outcome {
     /// None but for lack of memory.
     pub(crate) fn to_bytes(&self, bytes: Vec<u8>) -> Result<Vec<u8>, postcard::Error> {
         let rows = self.parts.iter().map(|part| (&part.row, part.time)).collect::<Vec<_>>();
-        let mut bytes = postcard::to_extend(&(self.run, self.steps, self.truth_time, rows), bytes)?;
+        let mut bytes = postcard::to_extend(&(self.run, self.steps, self.truth_time, &self.path, rows), bytes)?;
         for part in &self.parts {
             record::to_bytes(&part.records, &mut bytes);
         }
@@ -84,7 +92,7 @@ impl Outcome {
     /// When they are something else.
     pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Self, postcard::Error> {
         let (head, mut rest) = postcard::take_from_bytes::<Head>(bytes)?;
-        let (run, steps, truth_time, rows) = head;
+        let (run, steps, truth_time, path, rows) = head;
         let parts = rows.into_iter().map(|(row, time)| {
             let records = record::from_bytes(&mut rest).ok_or(postcard::Error::DeserializeUnexpectedEnd)?;
             Ok(Part { row, records, time })
@@ -93,6 +101,7 @@ impl Outcome {
             run,
             steps,
             truth_time,
+            path,
             parts: parts.collect::<Result<_, postcard::Error>>()?,
         })
     }

@@ -17,6 +17,8 @@ pub enum Quantity {
     Residual,
     /// The next three, where the measurement has six.
     ResidualRate,
+    /// Root of the jerk density in axes N, m/s^2.5: no error, but the value that the filter works with.
+    JerkRoot,
 }
 
 /// Number of quantities.
@@ -24,13 +26,14 @@ pub const QUANTITIES: usize = Quantity::ALL.len();
 
 impl Quantity {
     /// All of them, in the order of their numbers.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Position,
         Self::Velocity,
         Self::Acceleration,
         Self::Bias,
         Self::Residual,
         Self::ResidualRate,
+        Self::JerkRoot,
     ];
 }
 
@@ -78,7 +81,7 @@ impl Record {
         }
     }
 
-    /// Estimate minus truth; the innovation as it is.
+    /// Estimate minus truth; the innovation and the root of the jerk density as they are.
     pub fn error(&self, quantity: Quantity) -> Option<Vector3<f64>> {
         present(self.errors[quantity as usize])
     }

@@ -66,6 +66,7 @@ pub fn score(world: &World, truth: &TruthSample, estimate: &Estimate) -> Option<
         let variance = residual.and(estimate.residual_variance[part]).and_then(finite);
         record.set(quantity, residual, variance.filter(|_| has_covariance));
     }
+    record.set(Quantity::JerkRoot, estimate.jerk_root.and_then(finite), None);
     record.set_true_acceleration(truth.acceleration.map(|a| axes * a));
     record.set_nees(nees, nees6);
     let rows = estimate.nis_rows.unwrap_or(world.nis_rows);

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use crate::error::StudyError;
 use crate::fold::{FilterResult, RunRow};
 use crate::journal::Journal;
+use crate::kept::PathPoint;
 use crate::ordered::in_order;
 use crate::outcome::Outcome;
 use crate::shard::Shard;
@@ -43,6 +44,8 @@ pub struct Engine<'a> {
 pub struct StudyResult {
     /// By filter, in the order of the study.
     pub filters: Vec<FilterResult>,
+    /// Where the vehicles truly were in run 0, thinned.
+    pub path: Vec<PathPoint>,
     /// Time on the clock.
     pub wall: Duration,
 }
@@ -61,7 +64,11 @@ impl Study {
         let layout = self.spec.layout();
         let labels = self.spec.filters.iter().map(|f| &f.label);
         let mut filters: Vec<_> = labels.map(|label| FilterResult::new(label, &layout)).collect();
+        let mut path = Vec::new();
         self.each(&Shard::WHOLE.runs(self.runs), engine, |outcome| {
+            if outcome.run == 0 {
+                path = outcome.path;
+            }
             for (filter, part) in filters.iter_mut().zip(outcome.parts) {
                 filter.fold(part.row, &part.records)?;
                 filter.timing.add(outcome.steps, part.time, outcome.truth_time);
@@ -72,6 +79,7 @@ impl Study {
         })?;
         Ok(StudyResult {
             filters,
+            path,
             wall: begin.elapsed(),
         })
     }

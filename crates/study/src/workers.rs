@@ -110,6 +110,7 @@ impl Workers {
             run,
             steps: 0,
             truth_time: SlaveTime::default(),
+            path: Vec::new(),
             parts: Vec::new(),
         };
         let mut parts: Vec<Option<Part>> = spec.filters.iter().map(|_| None).collect();
@@ -123,6 +124,9 @@ impl Workers {
                     let outcome = Outcome::from_bytes(&bytes).map_err(|e| worker_error(io::Error::other(e)))?;
                     if outcome.steps >= whole.steps {
                         (whole.steps, whole.truth_time) = (outcome.steps, outcome.truth_time);
+                    }
+                    if outcome.path.len() > whole.path.len() {
+                        whole.path = outcome.path;
                     }
                     for (place, part) in filters.into_iter().zip(outcome.parts) {
                         parts[place] = Some(part);

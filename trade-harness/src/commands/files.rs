@@ -12,7 +12,7 @@ use crate::report::manifest::{Manifest, StudyFacts};
 use crate::report::measured::measured;
 use crate::report::runs::Named;
 use crate::report::timing::TimingRow;
-use crate::report::{epochs, phases, runs, summary, timing};
+use crate::report::{epochs, kept, phases, runs, summary, timing};
 use crate::requirements::{self, Verdict, evaluate};
 
 /// All results of the command, ready to be written.
@@ -102,17 +102,26 @@ impl<'a> Report<'a> {
         }
         let mut to_write = Vec::new();
         for (index, study) in named.iter().enumerate() {
+            let world = &study.spec.world.name;
+            let path = format!("paths/{world}_{}.csv", study.case);
+            if index >= written {
+                let contents = kept::render_path(study.spec, &self.results[index].path)?;
+                folder.write(&path, &contents)?;
+            }
+            files.push(path);
             for filter in study.filters {
-                let name = format!("epochs/{}_{}_{}.csv", study.spec.world.name, filter.label, study.case);
+                let name = format!("{world}_{}_{}.csv", filter.label, study.case);
                 if index >= written {
                     to_write.push((name.clone(), study.spec, filter));
                 }
-                files.push(name);
+                files.extend(["epochs", "run_errors"].map(|kind| format!("{kind}/{name}")));
             }
         }
         // Written as they are rendered: together they take more room than the results they show.
         in_parallel(&to_write, plan.threads(), |(name, spec, filter)| {
-            folder.write(name, &epochs::render(spec, filter)?).map(drop)
+            folder.write(&format!("epochs/{name}"), &epochs::render(spec, filter)?)?;
+            let errors = kept::render_run_errors(spec, filter)?;
+            folder.write(&format!("run_errors/{name}"), &errors).map(drop)
         })?;
         files.extend(folder.write_all(more)?);
         let wall = self.results.iter().map(|r| r.wall).sum();

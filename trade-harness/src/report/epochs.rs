@@ -33,11 +33,13 @@ fn axes(spec: &Spec, quantity: Quantity) -> Option<[Axis; 3]> {
         Quantity::Bias => named("bias", ["x", "y", "z"], "m_s2"),
         Quantity::Residual => rows(0)?,
         Quantity::ResidualRate => rows(1)?,
+        Quantity::JerkRoot => return None,
     })
 }
 
 /// Contents of the file: at each sample the number of runs and, by axis, the mean error, Eq. (31), the sample sigma,
-/// Eq. (32), and the estimated sigma, Eq. (33); then mean NEES over its dimension and mean NIS over its rows.
+/// Eq. (32), and the estimated sigma, Eq. (33); then mean NEES over its dimension, mean NIS over its rows, and for a filter
+/// that tells it the mean of `q.s`, the root of the jerk density in axes N, with its standard deviation over the runs.
 ///
 /// Sigmas are single, not triple; epochs before the scored time are included.
 ///
@@ -55,6 +57,10 @@ pub fn render(spec: &Spec, result: &FilterResult) -> Result<Vec<u8>, HarnessErro
         }
     }
     header.extend(["nees".to_owned(), "nis".to_owned()]);
+    let jerk_root = result.ensemble(Quantity::JerkRoot);
+    if jerk_root.epochs() > 0 {
+        header.extend((1..=3).flat_map(|i| ["mean", "spread"].map(|kind| format!("{kind}_q_s_{i}_m_s2_5"))));
+    }
     writer.write_record(&header)?;
 
     for epoch in 0..spec.epochs() {
@@ -74,6 +80,15 @@ pub fn render(spec: &Spec, result: &FilterResult) -> Result<Vec<u8>, HarnessErro
         }
         record.push(cell(result.nees.at(epoch).map(|(_, mean)| mean)));
         record.push(cell(result.nis.at(epoch).map(|(_, mean)| mean)));
+        if jerk_root.epochs() > 0 {
+            let moments = jerk_root.at(epoch);
+            // Rounding may leave the variance of equal values below zero.
+            let spread = moments.map(|m| (m.second_moment - m.mean.component_mul(&m.mean)).map(|v| v.max(0.0).sqrt()));
+            for axis in 0..3 {
+                record.push(cell(moments.map(|m| m.mean[axis])));
+                record.push(cell(spread.map(|s| s[axis])));
+            }
+        }
         writer.write_record(&record)?;
     }
     finished(writer)

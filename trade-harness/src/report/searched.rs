@@ -2,6 +2,7 @@
 
 use super::column::{self, Column, count, number, text};
 use crate::HarnessError;
+use crate::tuning::ranges::Axis;
 use crate::tuning::standing::Objective;
 use crate::tuning::study::{Evaluation, Searched};
 
@@ -11,6 +12,7 @@ pub(crate) struct Line {
     filter: String,
     number: u64,
     values: String,
+    ranges: String,
     objective: Objective,
     evaluation: Evaluation,
 }
@@ -26,6 +28,11 @@ pub(crate) const COLUMNS: &[Column<Line>] = &[
         "values",
         "NAME=VALUE of each parameter; empty for the starting point",
         |l| l.values.as_str().into(),
+    ),
+    text(
+        "ranges",
+        "NAME=LOW:HIGH of each parameter: the edges of the search",
+        |l| l.ranges.as_str().into(),
     ),
     text("objective", "the error that is made small", |l| {
         l.objective.name().into()
@@ -66,6 +73,7 @@ pub fn render<'a>(
             scenario: scenario.to_owned(),
             filter: filter.contender.base.label.clone(),
             number,
+            ranges: ranges(&filter.contender.axes),
             values: settings(filter.settings(evaluation)),
             objective,
             evaluation: evaluation.clone(),
@@ -73,6 +81,11 @@ pub fn render<'a>(
         lines.extend(filter.evaluations.iter().zip(1..).map(line));
     }
     column::render(COLUMNS, &lines)
+}
+
+fn ranges(axes: &[Axis]) -> String {
+    let range = |a: &Axis| format!("{}={:?}:{:?}", a.variable, a.low, a.high);
+    axes.iter().map(range).collect::<Vec<_>>().join(" ")
 }
 
 /// Values as `NAME=VALUE NAME=VALUE`.

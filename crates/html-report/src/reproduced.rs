@@ -1,0 +1,136 @@
+//! The page of a folder of `reproduce`: what the papers print beside what was found, and the learning curve.
+
+use askama::Template;
+use serde::Serialize;
+
+use crate::ReportError;
+use crate::folder::{Epochs, Row, over_time, table};
+use crate::number::short;
+use crate::pack::pack;
+
+/// Name of the table that makes a folder one of `reproduce`.
+pub(crate) const TABLE: &str = "reproduce.csv";
+
+#[derive(Template)]
+#[template(path = "reproduced.html")]
+struct Page<'a> {
+    headline: String,
+    lines: Vec<Line>,
+    has_learning: bool,
+    style: &'a str,
+    plot_style: &'a str,
+    plot_script: &'a str,
+    script: &'a str,
+    data: String,
+}
+
+struct Line {
+    paper: String,
+    item: String,
+    quantity: String,
+    unit: String,
+    /// Each as it is sorted and as it is shown.
+    numbers: [[String; 2]; 3],
+    bound: String,
+    verdict: String,
+    class: &'static str,
+    note: String,
+}
+
+/// What `report.js` draws; it knows the figures of a study by the same names.
+#[derive(Serialize)]
+struct Data {
+    id: &'static str,
+    scenario: &'static str,
+    scored_from_s: f64,
+    events: [(); 0],
+    filters: [(); 0],
+    learning: Option<Learning>,
+}
+
+/// The true acceleration and the error of its estimate, m/s2, by axis.
+#[derive(Serialize)]
+struct Learning {
+    t: Vec<Option<f64>>,
+    axes: Vec<LearningAxis>,
+}
+
+#[derive(Serialize)]
+struct LearningAxis {
+    name: &'static str,
+    #[serde(serialize_with = "pack")]
+    truth: Vec<Option<f64>>,
+    #[serde(serialize_with = "pack")]
+    error: Vec<Option<f64>>,
+}
+
+pub(crate) fn render(folder: &std::path::Path) -> Result<String, ReportError> {
+    let rows = table(
+        folder,
+        TABLE,
+        &["paper", "item", "quantity", "paper_value", "value", "verdict"],
+    )?;
+    let required = rows.iter().filter(|r| r.count("required") > 0);
+    let missed = required.clone().filter(|r| r.text("verdict") == "fails").count();
+    let learning = over_time(folder, "learning_curve.csv")?.as_ref().and_then(learning);
+    let data = [Data {
+        id: "s0",
+        scenario: "reproduce",
+        scored_from_s: 0.0,
+        events: [],
+        filters: [],
+        learning,
+    }];
+    let page = Page {
+        headline: format!("{missed} of {} required bounds missed.", required.count()),
+        lines: rows.iter().map(line).collect(),
+        has_learning: data[0].learning.is_some(),
+        style: include_str!("../assets/report.css"),
+        plot_style: include_str!("../assets/uplot/uPlot.min.css"),
+        plot_script: include_str!("../assets/uplot/uPlot.iife.min.js"),
+        script: include_str!("../assets/report.js"),
+        data: serde_json::to_string(&data)?.replace('<', "\\u003c"),
+    };
+    Ok(page.render()?)
+}
+
+fn line(row: &Row) -> Line {
+    let text = |column: &str| row.text(column).to_owned();
+    let number = |column: &str| [text(column), short(row.number(column))];
+    let [low, high] = ["bound_low", "bound_high"].map(|column| row.number(column).map(|v| short(Some(v))));
+    Line {
+        paper: text("paper"),
+        item: text("item"),
+        quantity: text("quantity"),
+        unit: text("unit"),
+        numbers: ["paper_value", "value", "standard_error"].map(number),
+        bound: match (low, high) {
+            (Some(low), Some(high)) => format!("{low} to {high}"),
+            (Some(low), None) => format!("≥ {low}"),
+            (None, Some(high)) => format!("≤ {high}"),
+            (None, None) => String::new(),
+        },
+        class: match row.text("verdict") {
+            "holds" => "good",
+            "fails" => "bad",
+            _ => "",
+        },
+        verdict: text("verdict"),
+        note: text("note"),
+    }
+}
+
+fn learning(file: &Epochs) -> Option<Learning> {
+    let column = |name: String| file.column(&name).map(<[_]>::to_vec);
+    let axis = |name: &'static str| {
+        Some(LearningAxis {
+            name,
+            truth: column(format!("d_{name}_m_s2"))?,
+            error: column(format!("rms_error_{name}_m_s2"))?,
+        })
+    };
+    Some(Learning {
+        t: column("t_s".to_owned())?,
+        axes: ["x", "y", "z"].into_iter().filter_map(axis).collect(),
+    })
+}
