@@ -246,11 +246,15 @@ pub enum MissionCommand {
     /// Read a mission file, fly it without noise and show what happens
     Check(MissionCheckArgs),
     /// Print the JSON schema of mission files, for editors
+    #[command(after_help = "Example:\n  trade-harness mission schema > mission.schema.json")]
     Schema,
 }
 
 /// `mission new`.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  trade-harness mission new my_mission\n  trade-harness mission new moon --from lunar_inspection --out missions"
+)]
 pub struct MissionNewArgs {
     /// Name of the mission; the file is NAME.toml
     pub name: String,
@@ -264,7 +268,10 @@ pub struct MissionNewArgs {
 
 /// `mission check`.
 #[derive(Debug, Args)]
-#[command(after_help = "Exit code 0: fit to fly. 1: it flies, but the time grid is too coarse. 2: it cannot be used.")]
+#[command(
+    after_help = "Examples:\n  trade-harness mission check my_mission.toml\n  trade-harness mission check leo_venting --set mission.vent.co2.period_s=300\n\n\
+        Exit code 0: fit to fly. 1: it flies, but the time grid is too coarse. 2: it cannot be used."
+)]
 pub struct MissionCheckArgs {
     /// The mission file, or the name of a mission that comes with the project
     #[arg(value_name = "FILE")]
@@ -288,6 +295,9 @@ pub struct MissionCheckArgs {
 
 /// `pack`.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  trade-harness pack\n  trade-harness pack --out fmus\n  trade-harness pack --mission my_mission.toml --out fmus"
+)]
 pub struct PackArgs {
     /// Put this mission into both FMUs as the one they run unless told otherwise
     #[arg(long, value_name = "FILE")]
@@ -305,6 +315,9 @@ pub struct PackArgs {
 
 /// `compare`.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  trade-harness compare\n  trade-harness compare --scenario leo_venting,nrho_venting --runs 200 --seed 7\n  trade-harness compare --filters snc,milton@consistent --set fmu-truth.vent.scale=10\n  trade-harness compare --grid fmu-truth.lidar.dropout_probability=0,0.2 --runs 50\n  trade-harness compare --study studies/vents_ten_times.toml --out results/vents"
+)]
 pub struct CompareArgs {
     /// Which worlds.
     #[command(flatten)]
@@ -415,6 +428,9 @@ pub struct WorkerArgs {
 
 /// `merge`.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples, of which the first two may run on different machines:\n  trade-harness compare --shard 1/2 --out results/parts\n  trade-harness compare --shard 2/2 --out results/parts\n  trade-harness merge results/parts"
+)]
 pub struct MergeArgs {
     /// Folder in which the parts of a study were done
     #[arg(value_name = "DIR")]
@@ -432,6 +448,9 @@ pub struct MergeArgs {
 
 /// `report`.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  trade-harness report results/compare\n  trade-harness report results/compare --svg --png"
+)]
 pub struct ReportArgs {
     /// Folder of a finished study; report.html goes there
     #[arg(value_name = "DIR")]
@@ -450,6 +469,9 @@ pub struct ReportArgs {
 /// `tune`.
 #[derive(Debug, Args)]
 // Seeds of the search, not of a study; and each filter once, since a search leaves its preset behind.
+#[command(
+    after_help = "Examples:\n  trade-harness tune --filters snc,milton\n  trade-harness tune --scenario nrho_venting --evaluations 96 --objective velocity\n  trade-harness compare --tuned results/tune/tuned.json --filters milton@tuned"
+)]
 #[command(mut_arg("seed", |a| a.default_value("1001").help("Seed of the worlds to search in")))]
 #[command(mut_arg("runs", |a| a.default_value("8").help("Runs of each candidate, in the same worlds for all")))]
 #[command(mut_arg("scenarios", |a| a.help("Scenarios, one search each")))]
@@ -497,6 +519,9 @@ fn case_name(text: &str) -> Result<String, String> {
 
 /// `replay`.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  trade-harness replay --run 37 --filters milton\n  trade-harness replay --scenario formation --filters rbfnn_aekf --out results/one.csv"
+)]
 pub struct ReplayArgs {
     /// Mission that comes with the project
     #[arg(long, value_name = "NAME", default_value = "leo_venting", conflicts_with = "mission")]
@@ -517,6 +542,7 @@ pub struct ReplayArgs {
 
 /// `reproduce`.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  trade-harness reproduce\n  trade-harness reproduce --runs 30 --out results/quick")]
 #[command(mut_arg("runs", |a| a.default_value("100").help("Runs of each study; the bounds are meant for 100")))]
 pub struct ReproduceArgs {
     /// How many runs.
@@ -535,6 +561,9 @@ pub struct ReproduceArgs {
 
 /// `inspect`.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  trade-harness inspect target/fmu/fmu-nav.fmu\n  trade-harness inspect my_filter.fmu"
+)]
 pub struct InspectArgs {
     /// The .fmu file
     #[arg(value_name = "FMU")]
@@ -557,6 +586,48 @@ mod tests {
     #[test]
     fn the_definition_is_sound() {
         Cli::command().debug_assert();
+    }
+
+    /// Command lines in the help of a command and of those below it, by command.
+    fn examples(command: &clap::Command) -> Vec<(String, Vec<String>)> {
+        let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+        let lines = help.lines().filter_map(|line| line.strip_prefix("  trade-harness "));
+        let own = (command.get_name().to_owned(), lines.map(str::to_owned).collect());
+        let below: Vec<_> = command.get_subcommands().filter(|c| !c.is_hide_set()).collect();
+        if below.is_empty() {
+            return vec![own];
+        }
+        below.into_iter().flat_map(examples).collect()
+    }
+
+    #[test]
+    fn every_command_has_examples_that_work() {
+        let home = pack::home_workspace();
+        let description = |model: &str| {
+            let path = home.join("modelDescription").join(model).join("modelDescription.xml");
+            std::fs::read_to_string(path).unwrap()
+        };
+        for (command, lines) in examples(&Cli::command()) {
+            // These two are whole as they stand.
+            assert!(
+                !lines.is_empty() || ["columns", "list"].contains(&command.as_str()),
+                "{command}"
+            );
+            for line in lines {
+                let words: Vec<&str> = line.split_whitespace().take_while(|word| *word != ">").collect();
+                let parsed = Cli::try_parse_from(["trade-harness"].iter().chain(&words));
+                assert!(parsed.is_ok(), "{line}: {}", parsed.unwrap_err());
+                for word in words {
+                    if word.starts_with("studies/") {
+                        assert!(home.join(word).is_file(), "{line}: there is no {word}");
+                    }
+                    if let Some((model, rest)) = word.split_once('.').filter(|(model, _)| model.starts_with("fmu-")) {
+                        let variable = rest.split('=').next().unwrap();
+                        assert!(description(model).contains(&format!("name=\"{variable}\"")), "{line}");
+                    }
+                }
+            }
+        }
     }
 
     #[test]
