@@ -254,6 +254,7 @@ fn arrows_between_crates_go_one_way() {
     // (who, whom it may know among ours)
     let allowed: &[(&str, &[&str])] = &[
         ("interface", &[]),
+        ("build-identity", &[]),
         ("numerics", &[]),
         ("astro", &["numerics"]),
         ("sensors", &["interface", "numerics", "astro"]),
@@ -303,5 +304,31 @@ fn arrows_between_crates_go_one_way() {
             let ours = names.contains(other) && dependency["kind"].is_null();
             assert!(!ours || may.contains(&other), "{name} must not know {other}");
         }
+    }
+}
+
+/// The crates of this workspace that an FMU's GUID is made from, against those that cargo resolves for its library.
+#[test]
+fn the_guid_of_an_fmu_is_made_from_every_crate_in_it() {
+    let all = packages();
+    let ours = |name: &str| all.iter().find(|p| p["source"].is_null() && p["name"] == name);
+    for fmu in ["fmu-truth", "fmu-nav"] {
+        let mut wanted = BTreeSet::new();
+        let mut open = vec![fmu.to_owned()];
+        while let Some(name) = open.pop() {
+            for dependency in ours(&name).unwrap()["dependencies"].as_array().unwrap() {
+                let other = dependency["name"].as_str().unwrap();
+                if dependency["kind"] != "dev" && ours(other).is_some() && !wanted.contains(other) {
+                    open.push(other.to_owned());
+                }
+            }
+            wanted.insert(name);
+        }
+        let inputs = build_identity::Inputs::of(root(), fmu).unwrap();
+        let found: BTreeSet<String> = inputs
+            .crates()
+            .map(|folder| folder.file_name().unwrap().to_string_lossy().into_owned())
+            .collect();
+        assert_eq!(found, wanted, "{fmu}");
     }
 }

@@ -11,6 +11,7 @@ use interface::mission::{Choice, Embedded, packed_guid};
 use interface::{Sensor, Signals, Status};
 use std::path::Path;
 use std::sync::OnceLock;
+use uuid::Uuid;
 
 impl Model for NavModel {
     fn info() -> &'static ModelInfo {
@@ -21,6 +22,7 @@ impl Model for NavModel {
             description: "Relative navigation filters of a chaser that does not know everything that acts on it and its target",
             version: env!("CARGO_PKG_VERSION"),
             license: "MIT",
+            guid: Uuid::parse_str(env!("FMU_GUID")).ok(),
             default_stop: Embedded::scenarios()
                 .next()
                 .and_then(|entry| entry.mission().ok())

@@ -7,6 +7,7 @@ use interface::mission::{Embedded, packed_guid};
 use std::path::Path;
 use std::sync::OnceLock;
 use truth::{Inputs, Params, Simulation};
+use uuid::Uuid;
 
 impl Model for TruthModel {
     fn info() -> &'static ModelInfo {
@@ -17,6 +18,7 @@ impl Model for TruthModel {
             description: "Simulated worlds of a chaser and its target, with the chaser's sensors",
             version: env!("CARGO_PKG_VERSION"),
             license: "MIT",
+            guid: Uuid::parse_str(env!("FMU_GUID")).ok(),
             default_stop: Embedded::scenarios()
                 .next()
                 .and_then(|entry| entry.mission().ok())

@@ -55,12 +55,14 @@ pub fn fmu_path(folder: &Path, name: &str) -> PathBuf {
 /// reading, writing and zip errors, and [`HarnessError::DoesNotStart`] for a library and description that do not belong together.
 pub fn pack(workspace: &Path, folder: &Path, mission: Option<&Path>, quiet: bool) -> Result<Vec<Packed>, HarnessError> {
     let (world, resources) = resources(mission)?;
-    let libraries = build(workspace, quiet)?;
+    let built = build(workspace, quiet)?;
     let mut packed = Vec::new();
     for (name, identifier) in FMUS {
-        let library = libraries.get(identifier).ok_or_else(|| HarnessError::NoLibrary {
+        let no_library = || HarnessError::NoLibrary {
             target: identifier.to_owned(),
-        })?;
+        };
+        let library = built.libraries.get(identifier).ok_or_else(no_library)?;
+        let guid = built.guids.get(name).ok_or_else(no_library)?;
         let description = workspace
             .join("modelDescription")
             .join(name)
@@ -70,6 +72,7 @@ pub fn pack(workspace: &Path, folder: &Path, mission: Option<&Path>, quiet: bool
                 "modelDescription.xml".to_owned(),
                 described(
                     read(&description)?,
+                    guid,
                     world.as_ref().zip(resources.get(&packed_mission())),
                 ),
             ),
@@ -133,14 +136,17 @@ fn resources(mission: Option<&Path>) -> Result<(Option<World>, Files), HarnessEr
     Ok((Some(world), files))
 }
 
-/// A model description with the identifier, the length of a run and the step that belong to the mission inside.
-fn described(xml: Vec<u8>, mission: Option<(&World, &Vec<u8>)>) -> Vec<u8> {
-    let Some((world, mission)) = mission else { return xml };
+/// A model description with the identifier that the build gave its library, and with a mission inside, the identifier, the
+/// length of a run and the step that belong to it.
+fn described(xml: Vec<u8>, guid: &str, mission: Option<(&World, &Vec<u8>)>) -> Vec<u8> {
     let text = String::from_utf8_lossy(&xml).into_owned();
-    let own = attribute(&text, "guid").to_owned();
+    let own = format!("{{{guid}}}");
     let with = |text: String, name: &str, value: String| {
         let old = format!("{name}=\"{}\"", attribute(&text, name));
         text.replacen(&old, &format!("{name}=\"{value}\""), 1)
+    };
+    let Some((world, mission)) = mission else {
+        return with(text, "guid", own).into_bytes();
     };
     let text = with(text, "guid", guid_with(&own, mission));
     let text = with(text, "stopTime", world.duration_s.to_string());
@@ -153,8 +159,17 @@ fn attribute<'a>(xml: &'a str, name: &str) -> &'a str {
     rest.split('"').next().unwrap_or_default()
 }
 
-/// Runs cargo; returns the shared library of each identifier.
-fn build(workspace: &Path, quiet: bool) -> Result<BTreeMap<String, PathBuf>, HarnessError> {
+/// What cargo made.
+#[derive(Debug, Default)]
+struct Built {
+    /// Shared library of each identifier.
+    libraries: BTreeMap<String, PathBuf>,
+    /// GUID of each crate, without braces.
+    guids: BTreeMap<&'static str, String>,
+}
+
+/// Runs cargo.
+fn build(workspace: &Path, quiet: bool) -> Result<Built, HarnessError> {
     let manifest = workspace.join("Cargo.toml");
     if !FMUS
         .iter()
@@ -189,15 +204,16 @@ fn build(workspace: &Path, quiet: bool) -> Result<BTreeMap<String, PathBuf>, Har
         .stdout(Stdio::piped())
         .spawn()
         .map_err(no_cargo)?;
-    let mut libraries = BTreeMap::new();
+    let mut built = Built::default();
     if let Some(messages) = child.stdout.take() {
         for line in BufReader::new(messages).lines().map_while(Result::ok) {
-            libraries.extend(library_of(&line));
+            built.libraries.extend(library_of(&line));
+            built.guids.extend(guid_of(&line));
         }
     }
     let status = child.wait().map_err(no_cargo)?;
     if status.success() {
-        Ok(libraries)
+        Ok(built)
     } else {
         Err(HarnessError::Build { status })
     }
@@ -216,6 +232,22 @@ fn library_of(line: &str) -> Option<(String, PathBuf)> {
         .map(Path::new)
         .find(|f| f.extension().is_some_and(|extension| extension == LIBRARY_SUFFIX))?;
     Some((message["target"]["name"].as_str()?.to_owned(), library.to_owned()))
+}
+
+/// One of our FMU crates and the GUID that its build script gave it, if this line of cargo's JSON messages tells of one.
+fn guid_of(line: &str) -> Option<(&'static str, String)> {
+    let message: serde_json::Value = serde_json::from_str(line).ok()?;
+    if message["reason"] != "build-script-executed" {
+        return None;
+    }
+    let package = message["package_id"].as_str()?;
+    // The folder of each crate has its name.
+    let (name, _) = FMUS
+        .into_iter()
+        .find(|(name, _)| package.contains(&format!("/{name}#")))?;
+    let variables = message["env"].as_array()?;
+    let guid = variables.iter().find(|pair| pair[0] == "FMU_GUID")?;
+    Some((name, guid[1].as_str()?.to_owned()))
 }
 
 /// The licence files of the workspace, with the entry page the standard asks for.
@@ -375,6 +407,18 @@ mod tests {
             .read_to_string(&mut text)
             .unwrap();
         assert_eq!(text, "<x/>");
+    }
+
+    #[test]
+    fn guids_are_found_in_cargos_messages() {
+        let line = |name: &str| {
+            format!(
+                r#"{{"reason":"build-script-executed","package_id":"path+file:///w/{name}#0.1.0","env":[["FMU_GUID","7f1f3d1c-0d7e-5f6a-9b1e-1c2d3e4f5a6b"]]}}"#
+            )
+        };
+        let guid = "7f1f3d1c-0d7e-5f6a-9b1e-1c2d3e4f5a6b".to_owned();
+        assert_eq!(guid_of(&line("fmu-nav")), Some(("fmu-nav", guid)));
+        assert_eq!(guid_of(&line("other")), None);
     }
 
     #[test]

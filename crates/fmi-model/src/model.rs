@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use uuid::Uuid;
 
 use crate::definition::{DefinitionError, is_identifier};
 use crate::log::Log;
@@ -78,6 +79,8 @@ pub struct ModelInfo {
     pub description: &'static str,
     /// Version of the model, normally `env!("CARGO_PKG_VERSION")`; it is part of what ties a library to its description.
     pub version: &'static str,
+    /// GUID made by the build from everything that the library is built from; `None` takes one from the description.
+    pub guid: Option<Uuid>,
     /// Who wrote it.
     pub author: &'static str,
     /// Who owns it.

@@ -8,16 +8,24 @@ use fmi_model::{
 };
 use uuid::Uuid;
 
-/// `modelDescription.xml` of `M`, the same text on every call and every machine.
+/// Stands for a GUID that the build makes: a committed description cannot know it.
+const MADE_BY_THE_BUILD: &str = "{made-by-the-build}";
+
+/// `modelDescription.xml` of `M`, the same text on every call and every machine; with a placeholder for a GUID that the build
+/// makes ([`ModelInfo::guid`]).
 ///
 /// # Errors
 /// The first mistake in the table or in [`ModelInfo`].
 pub fn render<M: Model>() -> Result<String, DefinitionError> {
-    let guid = braced(guid::<M>()?);
+    let own = guid::<M>()?;
+    let guid = M::info()
+        .guid
+        .map_or_else(|| braced(own), |_| MADE_BY_THE_BUILD.to_owned());
     Ok(document(M::info(), M::table(), &guid)?.to_document())
 }
 
-/// GUID of `M`: version 5 over its XML without GUID and its version. Any change to the interface changes it.
+/// GUID of `M`: that of the build, or else version 5 over its XML without GUID and its version, which any change to the interface
+/// changes.
 ///
 /// # Errors
 /// The first mistake in the table or in [`ModelInfo`].
@@ -25,6 +33,9 @@ pub fn guid<M: Model>() -> Result<Uuid, DefinitionError> {
     M::info().check()?;
     if let Some(defect) = M::table().defect() {
         return Err(defect.clone());
+    }
+    if let Some(guid) = M::info().guid {
+        return Ok(guid);
     }
     let mut name = document(M::info(), M::table(), "")?.to_document();
     name.push_str(M::info().version);
