@@ -200,7 +200,7 @@ pub fn mean_error_in_sigmas(quantities: &[&Ensemble], epochs: Range<usize>) -> O
 /// The same with the sample sigma about zero, the root of Eq. (32) of Mamich and Zanetti: never above sqrt(runs).
 pub fn mean_error_in_sigmas_about_zero(quantities: &[&Ensemble], epochs: Range<usize>) -> Option<f64> {
     root_mean_square(quantities, epochs, |m| {
-        let scores = m.mean.component_div(&m.sample_sigma()) * f64::from(m.runs).sqrt();
+        let scores = (m.mean * f64::from(m.runs).sqrt()).component_div(&m.sample_sigma());
         scores.component_mul(&scores)
     })
 }

@@ -48,7 +48,8 @@ pub struct PhaseRun {
     pub nees6: Sum,
     /// NIS over its rows.
     pub nis: Sum,
-    /// Longest time of the run's windows until the position error was back inside 3 sigma, s: see [`PhaseRun::back`].
+    /// Longest time of the run's windows, unbroken stretches of the phase, until the position error was within 3 sigma on every
+    /// axis for [`HOLD_S`] or to the end of the window, s; infinite where it was not.
     pub back: Option<f64>,
 }
 
