@@ -551,7 +551,7 @@
         const [low, high] = padded(extent(size.map((list) => list.map((v) => (v > 0 ? v : null))), () => true) ?? [0.1, 1], true);
         return panel({ width, height, left: (i % across) * width, top: legend.height + Math.floor(i / across) * height, title: `d, ${axis.name}`,
           x: { low: 0, high: t[t.length - 1], label: "time", unit: "s" }, y: { low: Math.max(low, high / 1e6), high, log: true, label: "acceleration", unit: "m/s²" },
-          series: size.map((y, k) => ({ x: t, y, tint: css(lines[k].tint), width: 1.2 })) });
+          series: size.map((y, k) => ({ x: t, y, tint: css(lines[k].tint), width: 1.2 })).reverse() });
       });
       return picture(full, legend.height + Math.ceil(axes.length / across) * height, legend.inner + inner.join(""));
     };

@@ -488,11 +488,14 @@ where
         let orbit = !path.chaser.is_empty();
         let areas = room.split_evenly((1 + usize::from(orbit), 2));
         let axes = &path.axes;
+        let center = path.body.map_or([0.0; 3], |(_, center)| center);
+        let from_body = |(list, c): (&Vec<Option<f64>>, f64)| list.iter().map(|v| v.map(|v| v - c)).collect();
+        let about: Vec<Vec<Option<f64>>> = path.chaser.iter().zip(center).map(from_body).collect();
         let mut panels: Vec<_> = [(1, 0), (1, 2)]
             .map(|at| (&path.relative, axes[at.0].as_str(), axes[at.1].as_str(), at))
             .into();
         if orbit {
-            panels.extend([(0, 2), (1, 2)].map(|at| (&path.chaser, ["x", "y"][at.0], "z", at)));
+            panels.extend([(0, 2), (1, 2)].map(|at| (&about, ["x", "y"][at.0], "z", at)));
         }
         for (area, (values, across, up, (a, b))) in areas.iter().zip(panels) {
             let both = values[a].iter().zip(&values[b]);

@@ -59,8 +59,7 @@ impl KeptRun {
 
 /// Least and greatest error of each axis, the earlier one first.
 fn extremes(records: &[Record], quantity: Quantity) -> [Vector3<f64>; 2] {
-    let mut found = [Vector3::repeat(f64::NAN); 2];
-    for axis in 0..3 {
+    let of_axis = |axis: usize| {
         let errors = || {
             records
                 .iter()
@@ -69,16 +68,13 @@ fn extremes(records: &[Record], quantity: Quantity) -> [Vector3<f64>; 2] {
         };
         let least = errors().min_by(|a, b| a.1.total_cmp(&b.1));
         let greatest = errors().max_by(|a, b| a.1.total_cmp(&b.1));
-        if let Some((least, greatest)) = least.zip(greatest) {
-            let in_order = if least.0 <= greatest.0 {
-                [least, greatest]
-            } else {
-                [greatest, least]
-            };
-            (found[0][axis], found[1][axis]) = (in_order[0].1, in_order[1].1);
-        }
-    }
-    found
+        let pair = least
+            .zip(greatest)
+            .map(|(l, g)| if l.0 <= g.0 { [l.1, g.1] } else { [g.1, l.1] });
+        pair.unwrap_or([f64::NAN; 2])
+    };
+    let axes = [0, 1, 2].map(of_axis);
+    [0, 1].map(|which| Vector3::from(axes.map(|pair| pair[which])))
 }
 
 /// Where the vehicles truly are at an epoch.
