@@ -2,8 +2,6 @@
 
 use std::process::ExitCode;
 
-use clap::Parser;
-
 fn main() -> ExitCode {
-    trade_harness::commands::execute(trade_harness::cli::Cli::parse())
+    trade_harness::commands::run()
 }

@@ -73,7 +73,7 @@ fn overview(nav: &ModelDescription, out: &mut Out<'_>) -> Result<(), HarnessErro
             ["presets", "every parameter set"],
             [
                 "parameters",
-                "what --set and --vary change: fmu-truth, fmu-nav, or one prefix of them",
+                "what --set and --vary change, as in 'list parameters fmu-nav milton'",
             ],
             ["ports", "variables that connect truth and filters"],
             ["distributions", "what --vary draws from"],

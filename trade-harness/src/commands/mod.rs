@@ -21,7 +21,7 @@ mod worker;
 use std::io;
 use std::process::ExitCode;
 
-use clap::CommandFactory as _;
+use clap::{CommandFactory as _, Parser as _};
 use study::{StudyError, chain};
 
 use crate::HarnessError;
@@ -29,6 +29,31 @@ use crate::cli::{Cli, Command, ListArgs, Listed};
 use crate::temporary::Temporary;
 use out::Out;
 use shared::{INTERRUPTED, Verdict, note};
+
+/// Reads the command line and runs its command; a line that is not understood ends with exit code 2.
+pub fn run() -> ExitCode {
+    match Cli::try_parse() {
+        Ok(cli) => execute(cli),
+        Err(error) => misread(&error),
+    }
+}
+
+/// Help, version, or what is wrong with the command line: for programs, too, where they asked for a document.
+fn misread(error: &clap::Error) -> ExitCode {
+    // Nothing is left to do where it cannot be told.
+    let _ = error.print();
+    if error.use_stderr() && std::env::args().any(|word| word == "--json") {
+        let text = error.to_string();
+        let text = text.trim().trim_start_matches("error: ");
+        let mut stdout = io::stdout().lock();
+        let mut out = Out::new(&mut stdout, true);
+        let _ = out
+            .tell("error", text)
+            .and_then(|()| out.tell("causes", [(); 0]))
+            .and_then(|()| out.end());
+    }
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+}
 
 /// Runs a command: exit code 0 when done, 1 when bounds were missed, 2 when it could not do its work, 130 when it was asked to
 /// stop.
@@ -53,10 +78,7 @@ pub fn execute(cli: Cli) -> ExitCode {
         Command::Inspect(args) => inspect::inspect(&args, &mut out),
         Command::Mission(command) => mission::mission(&command, &mut out),
         Command::Columns => list::list(&ListArgs::of(Listed::Metrics), &mut out),
-        Command::Completions { shell } => {
-            completions(shell);
-            return ExitCode::SUCCESS;
-        }
+        Command::Completions { shell } => completions(shell, &mut out),
         Command::Worker(args) => worker::worker(&args),
     };
     let result = result.and_then(|verdict| out.tell("verdict", verdict).map(|()| verdict));
@@ -91,10 +113,15 @@ pub fn execute(cli: Cli) -> ExitCode {
     }
 }
 
-/// A script for a shell, on standard output.
-fn completions(shell: clap_complete::Shell) {
-    let mut command = Cli::command();
-    clap_complete::generate(shell, &mut command, "trade-harness", &mut io::stdout().lock());
+/// A script for a shell.
+fn completions(shell: clap_complete::Shell, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
+    // Written whole first: the generator panics where nobody reads on.
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "trade-harness", &mut script);
+    let script = String::from_utf8_lossy(&script);
+    out.say(script.trim_end())?;
+    out.tell("script", script.trim_end())?;
+    Ok(Verdict::Done)
 }
 
 /// What lies below an error, from the nearest on.
