@@ -115,7 +115,8 @@ fn a_filter_that_fails_is_counted_and_named_and_the_others_go_on() {
     ];
     let output = harness(&[&study[..], &broken].concat());
     let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(0), "{said}");
+    // A filter that failed every run makes an exit code of its own.
+    assert_eq!(output.status.code(), Some(1), "{said}");
     for run in ["seed 9 run 0", "seed 9 run 1"] {
         assert!(
             said.lines().any(|line| line.contains("broken") && line.contains(run)),
@@ -160,8 +161,16 @@ fn a_world_that_fails_is_counted_for_each_filter() {
         "--out",
         text(folder.path()),
     ];
-    let table = harness_ok(&[&study[..], &burn].concat());
-    assert!(table.contains("milton"), "{table}");
+    let output = harness(&[&study[..], &burn].concat());
+    let (table, told) = (
+        String::from_utf8(output.stdout).unwrap(),
+        String::from_utf8(output.stderr).unwrap(),
+    );
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    assert!(
+        table.contains("milton") && told.contains("none of its 2 runs has a result"),
+        "{table}{told}"
+    );
     for row in read_csv(&folder.path().join("summary.csv")) {
         assert_eq!([&row["runs"], &row["failed"]], ["2", "2"]);
     }
@@ -237,7 +246,7 @@ fn mistakes_on_the_command_line_are_told_and_leave_earlier_results_alone() {
         ),
         (
             &["--set", "fmu-nav.r.sigma_range=0"],
-            &["fixed_q", "r.sigma_range", "0.0 m must be greater than 0"],
+            &["snc", "r.sigma_range", "0.0 m must be greater than 0"],
         ),
         (&["--set", "fmu-nav.est.time=0"], &["fmu-nav.est.time", "output"]),
         (

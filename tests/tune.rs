@@ -210,6 +210,27 @@ fn a_filter_with_nothing_to_tune_is_judged_as_it_is() {
     assert_eq!(read_csv(&folder.path().join("search.csv")).len(), 0);
 }
 
+/// `all` is every filter, each once, whatever is named beside it.
+#[test]
+fn all_filters_are_searched_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let few = ["--evaluations", "1", "--runs", "1", "--judge-runs", "1"];
+    harness_ok(
+        &[
+            &["tune", "--filters", "snc,all", "--out", text(folder.path())][..],
+            &few,
+        ]
+        .concat(),
+    );
+    let rows = read_csv(&folder.path().join("search.csv"));
+    let searched: Vec<&str> = rows.iter().map(|row| row["filter"].as_str()).collect();
+    let once = |label: &str| searched.iter().filter(|found| **found == label).count() == 1;
+    assert!(
+        ["snc", "dmc", "milton", "rbfnn_ekf"].into_iter().all(once),
+        "{searched:?}"
+    );
+}
+
 /// Arguments, and what the message must hold.
 type Mistake<'a> = (&'a [&'a str], &'a [&'a str]);
 

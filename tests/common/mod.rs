@@ -55,9 +55,14 @@ pub fn command(arguments: &[&str]) -> Command {
         programs.next_back().unwrap()
     });
     let mut command = Command::new(program);
-    command.args(arguments).arg("--quiet").current_dir(root());
-    // A merge takes the FMUs that its parts were made with, a report none.
-    if !matches!(arguments.first(), Some(&"merge" | &"report")) {
+    command.args(arguments).current_dir(root());
+    let first = arguments.first().copied();
+    // What answers at once has no progress.
+    if first != Some("list") {
+        command.arg("--quiet");
+    }
+    // A merge takes the FMUs that its parts were made with, a report and a list none.
+    if !matches!(first, Some("merge" | "report" | "list")) {
         command.arg("--no-build");
     }
     command

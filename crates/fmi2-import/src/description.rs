@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 use std::fmt;
-use std::path::Path;
 use std::sync::Arc;
 
 use crate::value::{BaseType, Value};
@@ -347,16 +346,6 @@ impl Variable {
 }
 
 impl ModelDescription {
-    /// Reads a `modelDescription.xml` that stands by itself.
-    ///
-    /// * `origin`: what messages call it.
-    ///
-    /// # Errors
-    /// [`ImportError`], as for a description in an archive.
-    pub fn parse(xml: &[u8], origin: &Path) -> Result<Self, ImportError> {
-        crate::xml::parse(xml, origin)
-    }
-
     /// The variable of this name, if there is one.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&Variable> {

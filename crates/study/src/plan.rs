@@ -425,6 +425,11 @@ impl Plan {
             filters: Some(labels.filter_map(|label| label.parse().ok()).collect()),
             case: Some(self.case_text()),
             jobs: None,
+            // Where runs are made changes no number either.
+            isolation: Isolation {
+                isolate: None,
+                ..self.isolation.clone()
+            },
             duration_s: Some(spec.world.duration_s),
             step_s: Some(spec.step),
             tuned: self

@@ -1,7 +1,7 @@
 //! What becomes of finished studies: files and tables.
 
 use serde_json::{Value, json};
-use study::{Calibration, Models, Output, Plan, Study, StudyResult, Summary, Workers, chain};
+use study::{Calibration, Isolation, Models, Output, Plan, Study, StudyResult, Summary, Workers, chain};
 
 use super::files::Report;
 use super::out::Out;
@@ -18,7 +18,7 @@ use crate::store::StudyFolder;
 /// Name of the file that makes the study again.
 const STUDY_FILE: &str = "study.toml";
 
-/// The study file of what was run: all of the plan but threads and folder, which change no number.
+/// The study file of what was run: all of the plan but threads, workers and folder, which change no number.
 fn study_file(plan: &Plan, studies: &[Study]) -> Result<String, HarnessError> {
     let mut labels = studies.iter().map(|study| {
         let filters = study.spec.filters.iter().map(|filter| &filter.label);
@@ -31,6 +31,10 @@ fn study_file(plan: &Plan, studies: &[Study]) -> Result<String, HarnessError> {
     let plan = Plan {
         filters: same.or(plan.filters.clone()),
         jobs: None,
+        isolation: Isolation {
+            isolate: None,
+            ..plan.isolation.clone()
+        },
         output: Output {
             folder: None,
             ..plan.output.clone()

@@ -36,6 +36,18 @@ pub(crate) fn parse(xml: &[u8], path: &Path) -> Result<ModelDescription, ImportE
     Resolver { path }.description(raw, annotations)
 }
 
+impl ModelDescription {
+    /// Reads a `modelDescription.xml` that stands by itself.
+    ///
+    /// * `origin`: what messages call it.
+    ///
+    /// # Errors
+    /// As for a description in an archive, [`ImportError`].
+    pub fn parse(xml: &[u8], origin: &Path) -> Result<Self, ImportError> {
+        parse(xml, origin)
+    }
+}
+
 fn malformed(path: &Path, xml: &[u8], offset: usize, reason: String) -> ImportError {
     let before = &xml[..offset.min(xml.len())];
     let line_start = before.iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use study::{FilterChoice, Models, NAV, Plan, TRUTH, TunedSet, World, rehearse};
+use study::{ALL, FilterChoice, Models, NAV, Plan, TRUTH, TunedSet, World, rehearse};
 
 use super::super::shared::note;
 use crate::HarnessError;
@@ -10,9 +10,22 @@ use crate::tuning::contender::{Contender, contenders, every_filter};
 use crate::tuning::ranges::{Range, concerns};
 use crate::tuning::study::{Options, Searched, Tuning};
 
-/// Filters that are chosen by name: those asked for, else every one of fmu-nav.
+/// Filters that are chosen by name: those asked for, where [`ALL`] stands for every one of fmu-nav that is not named, else
+/// every one.
 fn choices(plan: &Plan, models: &Models) -> Vec<FilterChoice> {
-    plan.filters.clone().unwrap_or_else(|| every_filter(models))
+    let Some(asked) = &plan.filters else {
+        return every_filter(models);
+    };
+    let others = || {
+        every_filter(models)
+            .into_iter()
+            .filter(|choice| !asked.contains(choice))
+    };
+    let expanded = |choice: &FilterChoice| match choice.label.as_str() {
+        ALL => others().collect(),
+        _ => vec![choice.clone()],
+    };
+    asked.iter().flat_map(expanded).collect()
 }
 
 /// Every `--range` names a filter of the study, and none a variable twice.
