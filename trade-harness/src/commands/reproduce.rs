@@ -54,7 +54,7 @@ pub(super) fn reproduce(args: &ReproduceArgs, out: &mut dyn Write) -> Result<Ver
 
     let mut files = write(&folder, &notebook, &heading)?;
     let studies = notebook.studies.clone();
-    Manifest::new(&bench.models, studies, bench.jobs, notebook.wall).write(&folder, &mut files)?;
+    Manifest::new(&bench.models, studies, bench.jobs, notebook.wall)?.write(&folder, &mut files)?;
     let missed = notebook.missed().count();
     say(
         out,

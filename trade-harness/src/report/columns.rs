@@ -7,7 +7,11 @@ use super::{best, runs, searched, summary, timing};
 pub fn all() -> Vec<FileColumns> {
     vec![
         FileColumns::new("summary.csv", "a world, filter and case", summary::COLUMNS),
-        FileColumns::new("runs.csv", "a run of a filter", runs::RUNS),
+        FileColumns::new(
+            "runs.csv",
+            "a run of a filter; then `MODEL.VARIABLE`, the value drawn in that run, for each `--vary`",
+            runs::RUNS,
+        ),
         FileColumns::new(
             "paired.csv",
             "a filter and a quantity, in the runs it shares with the first filter",
