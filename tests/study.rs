@@ -71,11 +71,20 @@ fn a_varied_run_is_replayed_with_its_own_values() {
     let manifest = String::from_utf8(one["manifest.json"].clone()).unwrap();
     assert!(manifest.contains("\"vent.scale\":\"loguniform:1:1000\""), "{manifest}");
 
+    let facts: serde_json::Value = serde_json::from_str(&manifest).unwrap();
+    let digest = |name: &str| facts["models"][name]["sha256"].as_str().unwrap().to_owned();
+    for name in ["fmu-truth", "fmu-nav"] {
+        let file = trade_harness::digest::of_file(&fmu(name)).unwrap();
+        assert_eq!(digest(name), file, "{name}");
+    }
+    assert_ne!(digest("fmu-truth"), digest("fmu-nav"));
+
     let runs = read_csv(&folder.path().join("one/runs.csv"));
     let row = runs
         .iter()
         .find(|r| r["filter"] == "fixed_q" && r["run"] == "2")
         .unwrap();
+    let drawn = &row["fmu-truth.vent.scale"];
     let replayed = |vary: &[&str]| {
         let out = folder.path().join("replay.csv");
         let run = ["replay", "--filters", "fixed_q", "--run", "2", "--out", text(&out)];
@@ -91,6 +100,8 @@ fn a_varied_run_is_replayed_with_its_own_values() {
     let rmse: f64 = row["pos_rmse_m"].parse().unwrap();
     let same = replayed(&["--vary", "fmu-truth.vent.scale=loguniform:1:1000"]);
     assert!((same / rmse - 1.0).abs() < 1e-9, "{same} and {rmse}");
+    let set = replayed(&["--set", &format!("fmu-truth.vent.scale={drawn}")]);
+    assert!((set / rmse - 1.0).abs() < 1e-9, "{set} with {drawn} and {rmse}");
     assert!(
         (replayed(&[]) / rmse - 1.0).abs() > 1e-9,
         "the variation has changed nothing"

@@ -14,6 +14,7 @@ pub mod bound;
 pub mod claims;
 pub mod cli;
 pub mod commands;
+pub mod digest;
 pub mod error;
 pub mod format;
 pub mod output;

@@ -7,10 +7,10 @@ use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use sha2::{Digest, Sha256};
 use study::{Journal, Models, Study, scheme_name};
 
 use crate::HarnessError;
+use crate::digest::{of_bytes, of_file};
 use crate::output::{OutputFolder, write_whole};
 
 /// Where an unfinished study keeps what it needs to go on.
@@ -208,14 +208,9 @@ struct PartIdentity<'a> {
 /// # Errors
 /// An FMU that cannot be read any more.
 pub fn identity(studies: &[Study], models: &Models) -> Result<String, HarnessError> {
-    let fmus = models.all().map(|model| {
-        let path = model.fmu.path();
-        let bytes = fs::read(path).map_err(|source| HarnessError::Read {
-            path: path.to_owned(),
-            source,
-        })?;
-        Ok((model.name.clone(), hex(&Sha256::digest(&bytes))))
-    });
+    let fmus = models
+        .all()
+        .map(|model| Ok((model.name.clone(), of_file(model.fmu.path())?)));
     let studies = studies.iter().map(|study| {
         let spec = &study.spec;
         let parts = std::iter::once(&spec.truth).chain(&spec.filters).chain(&spec.drivers);
@@ -246,9 +241,5 @@ pub fn identity(studies: &[Study], models: &Models) -> Result<String, HarnessErr
         fmus: fmus.collect::<Result<_, HarnessError>>()?,
         studies: studies.collect(),
     };
-    Ok(hex(&Sha256::digest(serde_json::to_vec(&facts)?)))
-}
-
-fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+    Ok(of_bytes(&serde_json::to_vec(&facts)?))
 }

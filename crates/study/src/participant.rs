@@ -77,6 +77,20 @@ impl Participant {
         self.varied.iter().any(|v| v.name == contract)
     }
 
+    /// What one run draws: `MODEL.VARIABLE` by the FMU's own name, and the value.
+    ///
+    /// * `seed`: of the study.
+    pub fn drawn(&self, seed: i32, run: u32) -> Vec<(String, f64)> {
+        let own = |contract: &'_ str| {
+            let alias = self.aliases.iter().find(|(_, name)| name == contract);
+            alias.map_or_else(|| contract.to_owned(), |(own, _)| own.clone())
+        };
+        self.varied
+            .iter()
+            .map(|v| (format!("{}.{}", self.model, own(&v.name)), v.value(seed, run)))
+            .collect()
+    }
+
     /// Sets the start value of a Real variable by the FMU's own name.
     pub fn set_real(&mut self, own: &str, value: f64) {
         let contract = self.contract(own).to_owned();

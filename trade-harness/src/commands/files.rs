@@ -126,7 +126,7 @@ impl<'a> Report<'a> {
         files.extend(folder.write_all(more)?);
         let wall = self.results.iter().map(|r| r.wall).sum();
         let studies = self.studies.iter().map(|s| StudyFacts::new(plan, s)).collect();
-        let mut manifest = Manifest::new(models, studies, plan.threads(), wall);
+        let mut manifest = Manifest::new(models, studies, plan.threads(), wall)?;
         manifest.calibration = Some(self.calibration.clone());
         manifest.identity = identity.map(str::to_owned);
         manifest.write(folder, &mut files)?;

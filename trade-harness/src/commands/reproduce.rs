@@ -51,7 +51,7 @@ pub(super) fn reproduce(args: &ReproduceArgs, out: &mut Out<'_>) -> Result<Verdi
 
     let mut files = write(&folder, &notebook, &heading)?;
     let studies = notebook.studies.clone();
-    Manifest::new(&bench.models, studies, bench.jobs, notebook.wall).write(&folder, &mut files)?;
+    Manifest::new(&bench.models, studies, bench.jobs, notebook.wall)?.write(&folder, &mut files)?;
     let missed = notebook.missed().count();
     out.tell("missed", missed)?;
     let lines = notebook.lines.iter().map(|(chapter, line)| {

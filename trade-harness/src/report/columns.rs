@@ -13,7 +13,11 @@ pub fn all() -> Vec<FileColumns> {
             "a requirement and what it is asked of, in studies that have any",
             crate::requirements::COLUMNS,
         ),
-        FileColumns::new("runs.csv", "a run of a filter", runs::RUNS),
+        FileColumns::new(
+            "runs.csv",
+            "a run of a filter; then `MODEL.VARIABLE`, the value drawn in that run, for each `--vary`",
+            runs::RUNS,
+        ),
         FileColumns::new(
             "paired.csv",
             "a pair of filters and a quantity, in the runs that both have a result of",

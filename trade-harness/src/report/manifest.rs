@@ -9,6 +9,7 @@ use serde::Serialize;
 use study::{Calibration, Model, Models, Participant, Plan, Study, scheme_name};
 
 use crate::HarnessError;
+use crate::digest::of_file;
 use crate::format::json_bytes;
 use crate::output::OutputFolder;
 
@@ -39,17 +40,23 @@ pub struct ModelFacts {
     model_name: String,
     version: Option<String>,
     guid: String,
+    /// SHA-256 of the `.fmu` file, which tells binaries of one GUID apart.
+    sha256: String,
 }
 
 impl ModelFacts {
-    /// Facts from the model description.
-    pub fn new(model: &Model) -> Self {
+    /// Facts from the model description and the file.
+    ///
+    /// # Errors
+    /// [`HarnessError::Read`].
+    pub fn new(model: &Model) -> Result<Self, HarnessError> {
         let d = model.fmu.description();
-        Self {
+        Ok(Self {
             model_name: d.model_name.clone(),
             version: d.version.clone(),
             guid: d.guid.clone(),
-        }
+            sha256: of_file(model.fmu.path())?,
+        })
     }
 }
 
@@ -183,16 +190,20 @@ impl Manifest {
     /// What a command has done.
     ///
     /// * `jobs`: threads; `wall`: time on the clock for all runs.
-    pub fn new(models: &Models, studies: Vec<StudyFacts>, jobs: usize, wall: Duration) -> Self {
-        Self {
+    ///
+    /// # Errors
+    /// An FMU that cannot be read any more.
+    pub fn new(models: &Models, studies: Vec<StudyFacts>, jobs: usize, wall: Duration) -> Result<Self, HarnessError> {
+        let facts = |model: &Model| Ok((model.name.clone(), ModelFacts::new(model)?));
+        Ok(Self {
             harness_version: env!("CARGO_PKG_VERSION"),
             identity: None,
             calibration: None,
-            models: models.all().map(|m| (m.name.clone(), ModelFacts::new(m))).collect(),
+            models: models.all().map(facts).collect::<Result<_, HarnessError>>()?,
             studies,
             files: Vec::new(),
             environment: Environment::now(jobs, wall, models.all()),
-        }
+        })
     }
 
     /// Writes `manifest.json`, with the names of the files beside it, and adds its own to them.

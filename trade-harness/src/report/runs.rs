@@ -2,8 +2,8 @@
 
 use study::{FilterResult, Pair, Quantity, RunRow, Spec, pairs};
 
-use super::column::{self, Column, count, number, text};
-use crate::HarnessError;
+use super::column::{self, Cell, Column, count, number, text};
+use crate::{HarnessError, format};
 
 /// One world's results with what names them.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +24,8 @@ pub(crate) struct Line {
     case: String,
     seed: i32,
     run: RunRow,
+    /// `MODEL.VARIABLE` and value of what the run has drawn for the world and for this filter.
+    drawn: Vec<(String, f64)>,
 }
 
 pub(crate) const RUNS: &[Column<Line>] = &[
@@ -49,12 +51,26 @@ pub(crate) const RUNS: &[Column<Line>] = &[
     number("nis", "1", "mean over time of NIS over its rows", |l| l.run.nis),
 ];
 
-/// Contents of `runs.csv`: each run of each filter, for finding the run to replay.
+/// Contents of `runs.csv`: each run of each filter, for finding the run to replay; behind the columns of every study one for each
+/// varied parameter, empty in rows that it does not concern.
 ///
 /// # Errors
 /// [`HarnessError::Csv`].
 pub fn render_runs(studies: &[Named<'_>]) -> Result<Vec<u8>, HarnessError> {
-    column::render(RUNS, &lines(studies))
+    let lines = lines(studies);
+    let mut varied: Vec<&str> = Vec::new();
+    for (name, _) in lines.iter().flat_map(|l| &l.drawn) {
+        if !varied.contains(&name.as_str()) {
+            varied.push(name);
+        }
+    }
+    let names: Vec<&str> = RUNS.iter().map(|c| c.name).chain(varied.iter().copied()).collect();
+    let cells = lines.iter().map(|line| {
+        let value = |name: &&str| line.drawn.iter().find(|(n, _)| n == name).map(|(_, value)| *value);
+        let drawn = varied.iter().map(|name| Cell::Number(value(name)));
+        RUNS.iter().map(|c| c.cell(line)).chain(drawn).collect::<Vec<_>>()
+    });
+    format::csv_bytes(&names, cells)
 }
 
 fn lines(studies: &[Named<'_>]) -> Vec<Line> {
@@ -65,6 +81,11 @@ fn lines(studies: &[Named<'_>]) -> Vec<Line> {
         case: s.case.to_owned(),
         seed: s.spec.seed,
         run: run.clone(),
+        drawn: {
+            let filter = s.spec.filters.iter().find(|p| p.label == f.label);
+            let parts = std::iter::once(&s.spec.truth).chain(filter);
+            parts.flat_map(|part| part.drawn(s.spec.seed, run.run)).collect()
+        },
     };
     filters
         .flat_map(|(s, f)| f.runs.iter().map(move |run| (s, f, run)))
