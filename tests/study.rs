@@ -114,7 +114,11 @@ fn a_filter_that_fails_is_counted_and_named_and_the_others_go_on() {
     ];
     let output = harness(&[&study[..], &broken].concat());
     let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(
+        said.contains("failed: broken in leo_venting, case nominal: none of its 2 runs"),
+        "{said}"
+    );
     for run in ["seed 9 run 0", "seed 9 run 1"] {
         assert!(
             said.lines().any(|line| line.contains("broken") && line.contains(run)),
@@ -159,7 +163,14 @@ fn a_world_that_fails_is_counted_for_each_filter() {
         "--out",
         text(folder.path()),
     ];
-    let table = harness_ok(&[&study[..], &burn].concat());
+    let output = harness(&[&study[..], &burn].concat());
+    assert_eq!(
+        output.status.code(),
+        Some(1),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let table = String::from_utf8(output.stdout).unwrap();
     assert!(table.contains("milton"), "{table}");
     for row in read_csv(&folder.path().join("summary.csv")) {
         assert_eq!([&row["runs"], &row["failed"]], ["2", "2"]);
