@@ -32,6 +32,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// Put the parts of a study together that 'compare --shard' has done
     Merge(MergeArgs),
+    /// Repeat a study from its manifest alone and tell whether every byte is the same
+    Rerun(RerunArgs),
     /// Write the HTML page of a finished study again, from its files
     Report(ReportArgs),
     /// Search for every filter's best parameters, then compare the filters at their best
@@ -426,6 +428,32 @@ pub struct WorkerArgs {
     pub job: PathBuf,
 }
 
+/// `rerun`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  trade-harness rerun results/compare\n  trade-harness rerun results/compare --out results/again --jobs 1"
+)]
+pub struct RerunArgs {
+    /// Folder of a finished study
+    #[arg(value_name = "DIR")]
+    pub dir: PathBuf,
+    /// Folder for the results [default: DIR.rerun]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Set a study that is in that folder aside
+    #[arg(long)]
+    pub force: bool,
+    /// Go on with FMUs and files that are others than they were
+    #[arg(long)]
+    pub other_files: bool,
+    /// Threads [default: all cores]
+    #[arg(long)]
+    pub jobs: Option<std::num::NonZeroUsize>,
+    /// No progress, only results and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
 /// `merge`.
 #[derive(Debug, Args)]
 #[command(
@@ -520,12 +548,24 @@ fn case_name(text: &str) -> Result<String, String> {
 /// `replay`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  trade-harness replay --run 37 --filters milton\n  trade-harness replay --scenario formation --filters rbfnn_aekf --out results/one.csv"
+    after_help = "Examples:\n  trade-harness replay results/compare --run 37 --filter milton\n  trade-harness replay --run 37 --filters milton\n  trade-harness replay --scenario formation --filters rbfnn_aekf --out results/one.csv"
 )]
 pub struct ReplayArgs {
-    /// Mission that comes with the project
-    #[arg(long, value_name = "NAME", default_value = "leo_venting", conflicts_with = "mission")]
-    pub scenario: String,
+    /// Folder of a finished study whose run it is; without one, the options say which study
+    #[arg(value_name = "DIR", conflicts_with_all = ["mission", "filters", "seed", "assignments", "variations", "step", "scheme", "truth", "foreign"])]
+    pub dir: Option<PathBuf>,
+    /// Of the filters of the study in DIR, this one alone; repeatable
+    #[arg(long = "filter", value_name = "LABEL", requires = "dir")]
+    pub labels: Vec<String>,
+    /// Case of the study in DIR, where it has several
+    #[arg(long, value_name = "NAME", requires = "dir")]
+    pub case: Option<String>,
+    /// Go on with FMUs and files that are others than they were
+    #[arg(long, requires = "dir")]
+    pub other_files: bool,
+    /// Mission that comes with the project [default: leo_venting, or the first of the study in DIR]
+    #[arg(long, value_name = "NAME", conflicts_with = "mission")]
+    pub scenario: Option<String>,
     /// A mission file
     #[arg(long, value_name = "FILE")]
     pub mission: Option<PathBuf>,

@@ -53,6 +53,28 @@ pub enum HarnessError {
         /// Why not.
         why: String,
     },
+    /// A folder without a study that can be made again.
+    #[error("{}: {problem}", path.display())]
+    NoStudy {
+        /// Its manifest.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// Files of a study that are gone or others than they were.
+    #[error(
+        "the study in {} cannot be made again: {changes};{commit} put the files back, or give --other-files to go on and see \
+         what differs",
+        path.display()
+    )]
+    NotAsItWas {
+        /// Folder of the study.
+        path: PathBuf,
+        /// What has changed.
+        changes: String,
+        /// What to build, if that is known.
+        commit: String,
+    },
     /// A file that is not overwritten.
     #[error("{} exists already; name another, or move it away", path.display())]
     Exists {

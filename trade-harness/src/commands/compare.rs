@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use study::{Engine, Journal, Output, Plan, Workers, rehearse};
+use study::{Engine, Journal, Models, Output, Plan, Shard, Workers, rehearse};
 
 use super::finished::{Finished, finish};
 use super::kept::{KEPT, Kept, shard_folder};
@@ -19,13 +19,47 @@ pub(super) fn compare(args: &CompareArgs, out: &mut Out<'_>) -> Result<Verdict, 
     end_when_asked()?;
     let plan = asked(args)?;
     let models = models(&plan, &args.study.build)?;
+    let claim = match (args.folder.resume, args.folder.force) {
+        (true, _) => Claim::Resume,
+        (_, true) => Claim::Force,
+        _ => Claim::Fresh,
+    };
+    let way = Way {
+        out_dir: results(args, &plan),
+        claim,
+        shard: args.folder.shard,
+        quiet: args.study.build.quiet,
+        wide: args.wide,
+        check: args.check,
+    };
+    carry_out(&plan, &models, &way, out)
+}
+
+/// How a study is carried out, beside what it is.
+pub(super) struct Way {
+    /// Folder of the results.
+    pub(super) out_dir: PathBuf,
+    /// What becomes of a study that is there already.
+    pub(super) claim: Claim,
+    /// Part of the runs.
+    pub(super) shard: Option<Shard>,
+    /// Whether there is no progress.
+    pub(super) quiet: bool,
+    /// Whether every column is printed.
+    pub(super) wide: bool,
+    /// Whether a claim that is missed is an exit code.
+    pub(super) check: bool,
+}
+
+/// Runs a plan and writes and prints what it finds.
+pub(super) fn carry_out(plan: &Plan, models: &Models, way: &Way, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     let foreign = plan.truth.is_some() || !plan.foreign.is_empty() || !plan.drive.is_empty();
     let isolate = plan
         .isolation
         .isolate
         .unwrap_or(foreign || !plan.isolation.preload.is_empty());
     let scratch = scratch()?;
-    let trial = cast(&plan, &models, scratch.path())?;
+    let trial = cast(plan, models, scratch.path())?;
     let mut workers = Vec::new();
     for study in &trial {
         let world = &study.spec.world;
@@ -34,7 +68,7 @@ pub(super) fn compare(args: &CompareArgs, out: &mut Out<'_>) -> Result<Verdict, 
         }
         // A bad setting shows before the folder is touched; somebody's FMU is called by a worker alone.
         let told = if isolate {
-            let own = worker::workers(study, &plan, &models, scratch.path(), plan.isolation.limits())?;
+            let own = worker::workers(study, plan, models, scratch.path(), plan.isolation.limits())?;
             let told = own.rehearse(&study.spec)?;
             workers.push(own);
             told
@@ -43,27 +77,20 @@ pub(super) fn compare(args: &CompareArgs, out: &mut Out<'_>) -> Result<Verdict, 
         };
         told.iter().for_each(|text| note(&format!("note: {text}")));
     }
-    let identity = identity(&trial, &models)?;
+    let identity = identity(&trial, models)?;
     drop(trial);
-    let claim = match (args.folder.resume, args.folder.force) {
-        (true, _) => Claim::Resume,
-        (_, true) => Claim::Force,
-        _ => Claim::Fresh,
-    };
-    let out_dir = results(args, &plan);
-    let place = args
-        .folder
+    let place = way
         .shard
-        .map_or_else(|| out_dir.clone(), |shard| shard_folder(&out_dir, shard));
-    if claim == Claim::Resume && StudyFolder::is_complete(&place, &identity) {
+        .map_or_else(|| way.out_dir.clone(), |shard| shard_folder(&way.out_dir, shard));
+    if way.claim == Claim::Resume && StudyFolder::is_complete(&place, &identity) {
         out.say(&format!("{} holds this study, complete", place.display()))?;
         return Ok(Verdict::Done);
     }
-    let folder = StudyFolder::claim(&place, &identity, claim)?;
-    let studies = cast(&plan, &models, folder.output().path())?;
-    let quiet = args.study.build.quiet;
-    if let Some(shard) = args.folder.shard {
-        let kept = Kept::new(&plan, &models)?;
+    let folder = StudyFolder::claim(&place, &identity, way.claim)?;
+    let studies = cast(plan, models, folder.output().path())?;
+    let quiet = way.quiet;
+    if let Some(shard) = way.shard {
+        let kept = Kept::new(plan, models)?;
         folder.keep(KEPT, &json_bytes(&kept)?)?;
         for (index, study) in studies.iter().enumerate() {
             shard_watched(study, shard, engine(&folder.journal(study)?, workers.get(index)), quiet)?;
@@ -71,7 +98,7 @@ pub(super) fn compare(args: &CompareArgs, out: &mut Out<'_>) -> Result<Verdict, 
         let text = format!(
             "part {shard} is done: {}; 'trade-harness merge {}' when all are",
             place.display(),
-            out_dir.display()
+            way.out_dir.display()
         );
         out.say(&text)?;
         return Ok(Verdict::Done);
@@ -90,10 +117,10 @@ pub(super) fn compare(args: &CompareArgs, out: &mut Out<'_>) -> Result<Verdict, 
         results: &results,
         workers: &workers,
         page: plan.output.report,
-        wide: args.wide,
+        wide: way.wide,
     };
-    let judged = finish(folder, finished, &models, &plan, out)?;
-    Ok(if judged.failed || (judged.claims_missed && args.check) {
+    let judged = finish(folder, finished, models, plan, out)?;
+    Ok(if judged.failed || (judged.claims_missed && way.check) {
         Verdict::BoundsMissed
     } else {
         Verdict::Done

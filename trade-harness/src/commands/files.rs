@@ -1,12 +1,16 @@
 //! The files of finished studies.
 
+use std::collections::BTreeMap;
 use std::panic::resume_unwind;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
+use interface::mission::Gravity;
 use study::{Calibration, Models, PhaseSummary, Plan, Requirement, Study, StudyResult, Summary, Workers, calibrate};
 
 use crate::HarnessError;
+use crate::digest::of_file;
 use crate::output::OutputFolder;
 use crate::report::manifest::{Manifest, StudyFacts};
 use crate::report::measured::measured;
@@ -66,7 +70,7 @@ impl<'a> Report<'a> {
     /// Writes every file and what else the command has; `manifest.json` last, so that it stands for a complete set.
     ///
     /// * `plan`: what the studies are part of.
-    /// * `identity`: for the manifest.
+    /// * `study`: of a folder that holds one alone, for the manifest.
     /// * `written`: studies, from the first, whose `epochs` files are in the folder already.
     /// * returns: names of all files.
     pub(super) fn write(
@@ -76,7 +80,7 @@ impl<'a> Report<'a> {
         plan: &Plan,
         written: usize,
         more: Vec<(String, Vec<u8>)>,
-        identity: Option<&str>,
+        study: Option<Told<'_>>,
     ) -> Result<Vec<String>, HarnessError> {
         let named: Vec<Named<'_>> = self
             .studies
@@ -128,10 +132,36 @@ impl<'a> Report<'a> {
         let studies = self.studies.iter().map(|s| StudyFacts::new(plan, s)).collect();
         let mut manifest = Manifest::new(models, studies, plan.threads(), wall)?;
         manifest.calibration = Some(self.calibration.clone());
-        manifest.identity = identity.map(str::to_owned);
+        if let Some(told) = study {
+            manifest.identity = Some(told.identity.to_owned());
+            manifest.study = Some(told.plan.clone());
+            manifest.inputs = inputs(told.plan, self.studies)?;
+        }
         manifest.write(folder, &mut files)?;
         Ok(files)
     }
+}
+
+/// A study that a folder holds alone.
+#[derive(Clone, Copy)]
+pub(super) struct Told<'a> {
+    pub(super) identity: &'a str,
+    /// Whole, as `study.toml` has it.
+    pub(super) plan: &'a Plan,
+}
+
+/// SHA-256 of the files that a study reads beside FMUs.
+fn inputs(plan: &Plan, studies: &[Study]) -> Result<BTreeMap<String, String>, HarnessError> {
+    let coefficients = studies.iter().filter_map(|study| {
+        let mission = &study.spec.world.mission;
+        match &mission.environment.gravity {
+            Gravity::Harmonics(field) => field.file.as_ref().map(|file| mission.locate(file)),
+            _ => None,
+        }
+    });
+    let named = plan.missions.iter().chain(&plan.map_files).cloned();
+    let digest = |path: PathBuf| Ok((path.display().to_string(), of_file(&path)?));
+    named.chain(coefficients).map(digest).collect()
 }
 
 /// Does something with every item, on some threads.

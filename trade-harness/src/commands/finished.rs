@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use study::{Calibration, Isolation, Models, Output, Plan, Study, StudyResult, Summary, Workers, chain};
 
-use super::files::Report;
+use super::files::{Report, Told};
 use super::out::Out;
 use super::report::write_page;
 use super::shared::{closing, note};
@@ -18,8 +18,8 @@ use crate::store::StudyFolder;
 /// Name of the file that makes the study again.
 const STUDY_FILE: &str = "study.toml";
 
-/// The study file of what was run: all of the plan but threads, workers and folder, which change no number.
-fn study_file(plan: &Plan, studies: &[Study]) -> Result<String, HarnessError> {
+/// What was run: all of the plan but threads, workers and folder, which change no number.
+fn whole(plan: &Plan, studies: &[Study]) -> Result<Plan, HarnessError> {
     let mut labels = studies.iter().map(|study| {
         let filters = study.spec.filters.iter().map(|filter| &filter.label);
         let ours = filters.filter(|label| plan.foreign.iter().all(|foreign| foreign.label != **label));
@@ -41,7 +41,7 @@ fn study_file(plan: &Plan, studies: &[Study]) -> Result<String, HarnessError> {
         },
         ..plan.clone()
     };
-    Ok(plan.with_whole_paths()?.to_toml()?)
+    Ok(plan.with_whole_paths()?)
 }
 
 /// Studies that are over.
@@ -76,8 +76,13 @@ pub(super) fn finish(
 ) -> Result<Judgement, HarnessError> {
     let report = Report::new(&plan.requirements, finished.studies, finished.results, finished.workers)?;
     let output = folder.output().clone();
-    let own = vec![(STUDY_FILE.to_owned(), study_file(plan, finished.studies)?.into_bytes())];
-    let mut files = report.write(&output, models, plan, 0, own, Some(folder.identity()))?;
+    let whole = whole(plan, finished.studies)?;
+    let own = vec![(STUDY_FILE.to_owned(), whole.to_toml()?.into_bytes())];
+    let told = Told {
+        identity: folder.identity(),
+        plan: &whole,
+    };
+    let mut files = report.write(&output, models, plan, 0, own, Some(told))?;
     if finished.page {
         match write_page(&output) {
             Ok(name) => files.push(name),

@@ -41,7 +41,7 @@ pub(super) fn list(args: &ListArgs, out: &mut Out<'_>) -> Result<Verdict, Harnes
 }
 
 /// The one of these names that is meant.
-fn known<'a>(
+pub(super) fn known<'a>(
     kind: &'static str,
     name: &str,
     names: impl Iterator<Item = &'a str> + Clone,

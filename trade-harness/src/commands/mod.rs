@@ -14,6 +14,7 @@ mod progress;
 mod replay;
 mod report;
 mod reproduce;
+mod rerun;
 mod shared;
 mod tune;
 mod worker;
@@ -74,6 +75,7 @@ pub fn execute(cli: Cli) -> ExitCode {
         Command::Report(args) => report::report(&args, &mut out),
         Command::Tune(args) => tune::tune(&args, &mut out),
         Command::Replay(args) => replay::replay(&args, &mut out),
+        Command::Rerun(args) => rerun::rerun(&args, &mut out),
         Command::Reproduce(args) => reproduce::reproduce(&args, &mut out),
         Command::Inspect(args) => inspect::inspect(&args, &mut out),
         Command::Mission(command) => mission::mission(&command, &mut out),

@@ -1,10 +1,16 @@
 //! `replay`: one run, sample by sample.
 
+use std::path::Path;
+
 use nalgebra::Vector3;
 
-use study::{Estimate, Plan, Quantity, Record, StudyError, TruthSample, World, rehearse, run_once, score};
+use study::{
+    Estimate, Plan, Quantity, Record, Spec, Status, StudyError, TruthSample, World, rehearse, run_once, score,
+};
 
+use super::list::known;
 use super::out::Out;
+use super::rerun::Recorded;
 use super::shared::{Verdict, changed, models, note, scratch};
 use crate::HarnessError;
 use crate::cli::ReplayArgs;
@@ -13,27 +19,39 @@ use crate::output::{prepare_file, write_whole};
 
 pub(super) fn replay(args: &ReplayArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     prepare_file(&args.out)?;
-    let plan = Plan {
-        scenarios: if args.mission.is_none() {
-            vec![args.scenario.clone()]
-        } else {
-            Vec::new()
-        },
-        missions: args.mission.clone().into_iter().collect(),
-        ..changed(Plan::default(), &args.study)?
-    };
     let folder = scratch()?;
-    let world = plan
-        .worlds(folder.path())?
-        .into_iter()
-        .next()
-        .ok_or(StudyError::NoWorld)?;
-    let spec = models(&plan, &args.study.build)?.spec(&plan, &world)?;
+    let spec = match &args.dir {
+        Some(dir) => of_a_study(args, dir, folder.path())?,
+        None => {
+            let named = args.scenario.clone().unwrap_or_else(|| "leo_venting".to_owned());
+            let plan = Plan {
+                scenarios: if args.mission.is_none() {
+                    vec![named]
+                } else {
+                    Vec::new()
+                },
+                missions: args.mission.clone().into_iter().collect(),
+                ..changed(Plan::default(), &args.study)?
+            };
+            let world = plan
+                .worlds(folder.path())?
+                .into_iter()
+                .next()
+                .ok_or(StudyError::NoWorld)?;
+            models(&plan, &args.study.build)?.spec(&plan, &world)?
+        }
+    };
+    let world = spec.world.clone();
     rehearse(&spec)?;
     let mut lines: Vec<Vec<Vec<String>>> = spec.filters.iter().map(|_| Vec::new()).collect();
+    let mut diverged: Vec<Option<f64>> = vec![None; spec.filters.len()];
     let report = run_once(&spec, args.run, |filter, truth, estimate| {
         let record = score(&world, truth, estimate)
             .ok_or_else(|| format!("the axes of the results are undefined at {} s", truth.time))?;
+        let said = estimate.status == Some(Status::Diverged);
+        if said || (record.lost && truth.time >= world.scored_from_s) {
+            diverged[filter].get_or_insert(truth.time);
+        }
         lines[filter].push(line(&world, &spec.filters[filter].label, truth, estimate, &record));
         Ok(())
     });
@@ -50,6 +68,19 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
             note(&format!("failed: {}{when}: {}", filter.label, failure.message));
         }
     }
+    for (filter, own) in spec.filters.iter().zip(&diverged) {
+        let said = match own {
+            Some(time) => format!("{} diverged at {time} s", filter.label),
+            None => format!("{} did not diverge", filter.label),
+        };
+        out.say(&said)?;
+    }
+    let told = spec
+        .filters
+        .iter()
+        .zip(&diverged)
+        .map(|(filter, time)| (filter.label.clone(), *time));
+    out.tell("diverged_at_s", told.collect::<std::collections::BTreeMap<_, _>>())?;
     out.tell("file", &args.out)?;
     out.say(&format!(
         "{} ({} samples)",
@@ -57,6 +88,50 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
         lines.iter().map(Vec::len).sum::<usize>()
     ))?;
     Ok(Verdict::Done)
+}
+
+/// What a run of a finished study is made of.
+///
+/// * `folder`: where the files of missions go that the study changes.
+fn of_a_study(args: &ReplayArgs, dir: &Path, folder: &Path) -> Result<Spec, HarnessError> {
+    let recorded = Recorded::read(dir)?;
+    let plan = recorded.plan(dir)?;
+    recorded.check(dir, args.other_files)?;
+    let cases = plan.cases()?;
+    let names = cases.iter().filter_map(|case| case.case.as_deref());
+    let case = match args.case.as_deref() {
+        Some(name) => Some(known("case", name, names)?),
+        None => None,
+    };
+    let plan = cases
+        .iter()
+        .find(|plan| case.is_none() || plan.case.as_deref() == case)
+        .ok_or(StudyError::NoWorld)?;
+    let worlds = plan.worlds(folder)?;
+    let scenario = match args.scenario.as_deref() {
+        Some(name) => Some(known("world", name, worlds.iter().map(|world| world.name.as_str()))?),
+        None => None,
+    };
+    let world = worlds
+        .iter()
+        .find(|world| scenario.is_none_or(|name| world.name == name))
+        .ok_or(StudyError::NoWorld)?;
+    if args.run >= plan.runs {
+        return Err(HarnessError::NoSuchThing {
+            kind: "run",
+            name: args.run.to_string(),
+            meant: None,
+            known: format!("0 to {}", plan.runs - 1),
+        });
+    }
+    let mut spec = recorded.models(plan)?.spec(plan, world)?;
+    for label in &args.labels {
+        known("filter", label, spec.filters.iter().map(|filter| filter.label.as_str()))?;
+    }
+    if !args.labels.is_empty() {
+        spec.filters.retain(|filter| args.labels.contains(&filter.label));
+    }
+    Ok(spec)
 }
 
 /// Truth and estimate in the axes of their variables; error and sigma in those of the results.
@@ -85,7 +160,13 @@ fn header(world: &World) -> Vec<String> {
         }
     }
     names.extend(["nees", "nis", "q_s_1", "q_s_2", "q_s_3"].map(str::to_owned));
+    names.extend(upper().map(|(row, column)| format!("p_{}_{}", row + 1, column + 1)));
     names
+}
+
+/// Places of the covariance of position, velocity and acceleration on and above its diagonal, in the axes of its variables.
+fn upper() -> impl Iterator<Item = (usize, usize)> {
+    (0..9).flat_map(|row| (row..9).map(move |column| (row, column)))
 }
 
 fn line(world: &World, label: &str, truth: &TruthSample, estimate: &Estimate, record: &Record) -> Vec<String> {
@@ -118,5 +199,8 @@ fn line(world: &World, label: &str, truth: &TruthSample, estimate: &Estimate, re
     }
     cells.extend([cell(record.nees()), cell(record.nis())]);
     cells.extend((0..3).map(|axis| cell(estimate.jerk_root.map(|q| q[axis]))));
+    let states = estimate.dimension;
+    let held = |place: &(usize, usize)| place.0 < states && place.1 < states;
+    cells.extend(upper().map(|place| cell(estimate.covariance.filter(|_| held(&place)).map(|p| p[place]))));
     cells
 }

@@ -21,6 +21,11 @@ pub struct Manifest {
     /// What tells the studies from any others ([`crate::store::identity`]); of a command whose folder is its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub identity: Option<String>,
+    /// The whole study, as its file tells it: what `rerun` repeats.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub study: Option<Plan>,
+    /// SHA-256 of every file that the study reads, by its path in it.
+    pub inputs: BTreeMap<String, String>,
     /// Each FMU by its name in the study.
     pub models: BTreeMap<String, ModelFacts>,
     /// Each world.
@@ -128,6 +133,8 @@ impl StudyFacts {
 /// Where and when the study ran.
 #[derive(Debug, Serialize)]
 pub struct Environment {
+    /// What the harness was built from.
+    pub build: Build,
     /// Date and time of the end, UTC.
     pub date: String,
     /// Name of the machine, if it tells.
@@ -148,6 +155,27 @@ pub struct Environment {
     pub peak_memory_mib: Option<f64>,
 }
 
+/// What the harness was built from.
+#[derive(Debug, Serialize)]
+pub struct Build {
+    /// Commit of the project; none outside a checkout.
+    pub commit: Option<&'static str>,
+    /// Whether files differed from that commit.
+    pub dirty: Option<bool>,
+    /// Compiler.
+    pub compiler: Option<&'static str>,
+}
+
+impl Build {
+    fn of_this_program() -> Self {
+        Self {
+            commit: option_env!("TRADE_HARNESS_COMMIT"),
+            dirty: option_env!("TRADE_HARNESS_DIRTY").map(|text| text == "true"),
+            compiler: option_env!("TRADE_HARNESS_COMPILER"),
+        }
+    }
+}
+
 impl Environment {
     /// Looks around.
     ///
@@ -156,6 +184,7 @@ impl Environment {
         let path = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let host = fs::read_to_string("/proc/sys/kernel/hostname").ok();
         Self {
+            build: Build::of_this_program(),
             date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
             host: host
                 .map(|h| h.trim().to_owned())
@@ -199,6 +228,8 @@ impl Manifest {
             harness_version: env!("CARGO_PKG_VERSION"),
             identity: None,
             calibration: None,
+            study: None,
+            inputs: BTreeMap::new(),
             models: models.all().map(facts).collect::<Result<_, HarnessError>>()?,
             studies,
             files: Vec::new(),
