@@ -145,12 +145,32 @@ fn deviations_badges_digests_and_replays_are_named() {
         })
         .unwrap();
     let command = format!(
-        "trade-harness replay --scenario leo_venting --filters snc --seed 7 --run {} --set fmu-truth.vent.scale=3 \
-         --vary fmu-truth.lidar.sigma_range=loguniform:0.05:0.2",
-        worst["run"]
+        "trade-harness replay DIR --scenario leo_venting --case {} --run {} --filter snc",
+        worst["case"], worst["run"]
     );
     let section = between(&page, "<summary>snc</summary>", "</details>");
     assert_eq!(between(section, "<code>", "</code>"), command);
+    // And it does what it says: the run has the error that the study found.
+    let out = folder.join("../replayed.csv");
+    let folder = folder.to_str().unwrap();
+    let line: Vec<&str> = command
+        .split(' ')
+        .skip(1)
+        .map(|word| if word == "DIR" { folder } else { word })
+        .collect();
+    harness_ok(&[&line[..], &["--out", out.to_str().unwrap()]].concat());
+    let rows = read_csv(&out);
+    let scored = rows.iter().filter(|row| row["t_s"].parse::<f64>().unwrap() >= 300.0);
+    let squares = scored.map(|row| {
+        let error = |axis: &str| row[&format!("err_pos_{axis}_m")].parse::<f64>().unwrap();
+        ["r", "t", "n"].map(|axis| error(axis).powi(2)).iter().sum::<f64>()
+    });
+    let squares: Vec<f64> = squares.collect();
+    let rmse = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+    assert!(
+        (rmse / worst["pos_rmse_m"].parse::<f64>().unwrap() - 1.0).abs() < 1e-9,
+        "{rmse}"
+    );
 }
 
 #[test]

@@ -109,6 +109,55 @@ fn a_varied_run_is_replayed_with_its_own_values() {
 }
 
 /// One of our filters as a stranger's, with a covariance that overflows at its first sample.
+/// A study is made again from its file and from its manifest, cases of a grid and all; another FMU or mission is told.
+#[test]
+fn a_study_is_made_again_to_the_last_byte_and_what_has_changed_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let mission = at("mine.toml");
+    std::fs::copy(common::root().join("missions/leo_venting.toml"), &mission).unwrap();
+    let asked = format!(
+        "mission = [{mission:?}]\nfilters = [\"snc\"]\nruns = 2\nduration_s = 500\n\
+         vary = [\"fmu-truth.lidar.sigma_range=normal:0.1:0.01\"]\n\
+         [[grid]]\nset = {{ \"fmu-truth.vent.scale\" = [1, 10], \"mission.vent.co2.period_s\" = [300] }}\n\
+         [[phase]]\nname = \"end\"\nfrom_s = 400\nto_s = 500\n\
+         [[requirement]]\nmetric = \"pos_rmse_m\"\nphase = \"end\"\nat_most = 100\n"
+    );
+    std::fs::write(at("asked.toml"), asked).unwrap();
+    harness_ok(&["compare", "--study", text(&at("asked.toml")), "--out", text(&at("one"))]);
+    let cases: Vec<String> = read_csv(&at("one/summary.csv"))
+        .iter()
+        .map(|row| row["case"].clone())
+        .collect();
+    assert_eq!(cases.len(), 2);
+    assert_ne!(cases[0], cases[1]);
+    assert_eq!(read_csv(&at("one/requirements.csv")).len(), 2);
+    harness_ok(&[
+        "compare",
+        "--study",
+        text(&at("one/study.toml")),
+        "--out",
+        text(&at("two")),
+    ]);
+    assert!(results(&at("one")) == results(&at("two")), "made again from its file");
+    let told = harness_ok(&["rerun", text(&at("one")), "--jobs", "1"]);
+    assert!(told.contains("not a byte different"), "{told}");
+    assert!(results(&at("one")) == results(&at("one.rerun")));
+
+    let changed = std::fs::read_to_string(&mission)
+        .unwrap()
+        .replace("period_s = ", "period_s = 1");
+    std::fs::write(&mission, changed).unwrap();
+    let refused = harness(&["rerun", text(&at("one")), "--out", text(&at("three"))]);
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("mine.toml is another file") && said.contains("--other-files"),
+        "{said}"
+    );
+    assert!(!at("three").exists());
+}
+
 #[test]
 fn a_filter_that_fails_is_counted_and_named_and_the_others_go_on() {
     let folder = tempfile::tempdir().unwrap();

@@ -61,8 +61,8 @@ pub fn command(arguments: &[&str]) -> Command {
     if first != Some("list") {
         command.arg("--quiet");
     }
-    // A merge takes the FMUs that its parts were made with, a report and a list none.
-    if !matches!(first, Some("merge" | "report" | "list")) {
+    // A merge and a rerun take the FMUs that their study was made with, a report and a list none.
+    if !matches!(first, Some("merge" | "report" | "list" | "rerun")) {
         command.arg("--no-build");
     }
     command

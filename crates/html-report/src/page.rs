@@ -348,47 +348,16 @@ fn worst(folder: &Folder, study: &StudyFacts, filter: &str) -> Worst {
     }
 }
 
-/// The command line that flies one run of one filter again.
+/// The command line that writes one run of one filter out, from the folder of the page.
 fn replay(study: &StudyFacts, filter: &str, run: &str) -> String {
-    let plan = &study.plan;
-    let mut words = vec!["trade-harness".to_owned(), "replay".to_owned()];
-    let mut option = |name: &str, value: &str| words.extend([format!("--{name}"), quoted(value)]);
-    match texts(&plan["mission"]).first() {
-        Some(file) => option("mission", file),
-        None => option("scenario", &study.scenario),
-    }
-    let foreign = texts(&plan["nav"]);
-    let prefix = format!("{filter}=");
-    match foreign.iter().find(|nav| nav.starts_with(&prefix)) {
-        Some(nav) => {
-            option("filters", "");
-            option("nav", nav);
-        }
-        None => option("filters", filter),
-    }
-    option("seed", &study.study_seed.to_string());
-    option("run", run);
-    if let Some(truth) = plan["truth"].as_str() {
-        option("truth", truth);
-    }
-    for key in ["set", "vary", "map"] {
-        let concerns = |text: &&String| {
-            // What names another filter has no place in this run.
-            foreign.iter().all(|nav| {
-                let label = nav.split('=').next().unwrap_or_default();
-                label == filter || !text.starts_with(&format!("{label}."))
-            })
-        };
-        texts(&plan[key])
-            .iter()
-            .filter(concerns)
-            .for_each(|text| option(key, text));
-    }
-    if study.step_s.total_cmp(&study.sample_period_s).is_ne() {
-        option("step", &study.step_s.to_string());
-    }
-    if let Some(scheme) = plan["scheme"].as_str().filter(|s| *s != "gauss-seidel") {
-        option("scheme", scheme);
+    let mut words = vec!["trade-harness".to_owned(), "replay".to_owned(), "DIR".to_owned()];
+    for (name, value) in [
+        ("scenario", study.scenario.as_str()),
+        ("case", &study.case),
+        ("run", run),
+        ("filter", filter),
+    ] {
+        words.extend([format!("--{name}"), quoted(value)]);
     }
     words.join(" ")
 }

@@ -243,17 +243,35 @@ impl Manifest {
     /// [`HarnessError::Json`], [`HarnessError::Write`].
     pub fn write(mut self, folder: &OutputFolder, files: &mut Vec<String>) -> Result<(), HarnessError> {
         self.files.clone_from(files);
-        folder.write("manifest.json", &self.render()?)?;
+        folder.write("manifest.json", &self.render(folder.path())?)?;
         files.push("manifest.json".to_owned());
         Ok(())
     }
 
-    /// Contents of `manifest.json`.
+    /// Contents of `manifest.json`; what lies in the folder is told from there, so that a study tells the same wherever it is.
     ///
     /// # Errors
     /// [`HarnessError::Json`].
-    pub fn render(&self) -> Result<Vec<u8>, HarnessError> {
-        json_bytes(self)
+    fn render(&self, folder: &Path) -> Result<Vec<u8>, HarnessError> {
+        let mut manifest = serde_json::to_value(self)?;
+        let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+        from_folder(&mut manifest["studies"], &whole);
+        json_bytes(&manifest)
+    }
+}
+
+/// Turns paths below a folder into those from it.
+fn from_folder(value: &mut serde_json::Value, folder: &Path) {
+    use serde_json::Value;
+    match value {
+        Value::String(text) => {
+            if let Ok(inside) = Path::new(text.as_str()).strip_prefix(folder) {
+                *text = inside.display().to_string();
+            }
+        }
+        Value::Array(list) => list.iter_mut().for_each(|value| from_folder(value, folder)),
+        Value::Object(map) => map.values_mut().for_each(|value| from_folder(value, folder)),
+        _ => {}
     }
 }
 
