@@ -501,9 +501,10 @@ fn phases_requirements_pairs_and_searches_are_shown_where_they_are() {
              leo_venting,snc,3,0,snc.q=2e-3,snc.q=1e-6:1e-2,position,1,9,0,0,0,0\n",
         ),
     ]);
-    let list = between(&page, "<ul class=\"requirements\">", "</ul>");
+    let list = between(&page, "Every requirement is met by snc, not by milton.", "</details>");
     assert!(
-        list.contains("<li class=\"good\"><b>met</b> snc: pos_p95_m in vents 0.250 m, required ≤ 0.500")
+        list.contains("1 of 2 requirements are met")
+            && list.contains("<li class=\"good\"><b>met</b> snc: pos_p95_m in vents 0.250 m, required ≤ 0.500")
             && list.contains("<li class=\"bad\"><b>missed</b> milton: pos_p95_m 2.00 m, required ≤ 0.500")
             && list.contains("margin −1.50 m"),
         "{list}"

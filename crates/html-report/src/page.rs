@@ -1,5 +1,7 @@
 //! The template, filled.
 
+use std::collections::BTreeSet;
+
 use askama::Template;
 use serde_json::Value;
 
@@ -54,7 +56,10 @@ struct Section {
     deviations: Vec<String>,
     facts: Vec<[String; 2]>,
     badges: Vec<Badges>,
-    requirements: Vec<Requirement>,
+    /// Who meets every requirement.
+    fit: String,
+    met: Vec<Requirement>,
+    missed: Vec<Requirement>,
     identity: String,
     short_identity: String,
     headings: Vec<[&'static str; 2]>,
@@ -75,6 +80,7 @@ struct Section {
 }
 
 /// A line of `requirements.csv`.
+#[derive(Clone)]
 struct Requirement {
     met: bool,
     filter: String,
@@ -122,7 +128,8 @@ pub(crate) fn render(folder: &Folder) -> Result<String, ReportError> {
     for (study, drawn) in manifest.studies.iter().zip(&figures) {
         studies.push(section(folder, study, drawn)?);
     }
-    let worlds: Vec<&str> = manifest.studies.iter().map(|s| s.scenario.as_str()).collect();
+    let mut worlds: Vec<&str> = manifest.studies.iter().map(|s| s.scenario.as_str()).collect();
+    worlds.dedup();
     // A label may hold anything: nothing in it must end the script element.
     let data = serde_json::to_string(&figures)?.replace('<', "\\u003c");
     let page = Page {
@@ -147,6 +154,7 @@ fn section(folder: &Folder, study: &StudyFacts, figures: &Figures) -> Result<Sec
         None => ("No filter has a result.".to_owned(), Vec::new()),
     };
     let deviations = deviations(study);
+    let requirements: Vec<Requirement> = folder.requirements(study).into_iter().map(requirement).collect();
     let every = figures
         .filters
         .iter()
@@ -160,7 +168,9 @@ fn section(folder: &Folder, study: &StudyFacts, figures: &Figures) -> Result<Sec
         has_phases: figures.phases.is_some(),
         has_cases: figures.cases.is_some(),
         has_search: !figures.search.is_empty(),
-        requirements: folder.requirements(study).into_iter().map(requirement).collect(),
+        fit: fit(&requirements),
+        met: requirements.iter().filter(|r| r.met).cloned().collect(),
+        missed: requirements.into_iter().filter(|r| !r.met).collect(),
         short_identity: folder
             .manifest
             .identity
@@ -285,24 +295,53 @@ fn badges(row: &Row) -> Badges {
 
 /// A requirement in words: metric, phase, value and bounds.
 fn requirement(row: &Row) -> Requirement {
+    // A share or a normalised square has none to show.
+    let unit = match row.text("unit") {
+        "1" => String::new(),
+        unit => format!(" {unit}"),
+    };
     let mut text = row.text("metric").to_owned();
     if !row.text("phase").is_empty() {
         text.push_str(&format!(" in {}", row.text("phase")));
     }
     let value = |column: &str| row.number(column).map(|v| short(Some(v)).replace('-', "−"));
     if let Some(value) = value("value") {
-        text.push_str(&format!(" {value} {}", row.text("unit")));
+        text.push_str(&format!(" {value}{unit}"));
     }
     for (column, sign) in [("at_least", "≥"), ("at_most", "≤")] {
         if let Some(bound) = value(column) {
             text.push_str(&format!(", required {sign} {bound}"));
         }
     }
+    let met = row.text("verdict") == "met";
+    let reason = row.text("reason");
+    if !met && !reason.is_empty() {
+        text.push_str(&format!("; {reason}"));
+    }
     Requirement {
-        met: row.text("verdict") == "met",
+        met,
         filter: row.text("filter").to_owned(),
         text,
-        margin: value("margin").map_or_else(String::new, |margin| format!("margin {margin} {}", row.text("unit"))),
+        margin: value("margin").map_or_else(String::new, |margin| format!("margin {margin}{unit}")),
+    }
+}
+
+/// Who meets every requirement that it is held to, and who does not; nothing where nothing is required.
+fn fit(requirements: &[Requirement]) -> String {
+    let mut filters: Vec<&str> = requirements.iter().map(|r| r.filter.as_str()).collect();
+    let mut seen = BTreeSet::new();
+    filters.retain(|filter| seen.insert(*filter));
+    let meets = |filter: &&str| requirements.iter().filter(|r| r.filter == **filter).all(|r| r.met);
+    let (fit, unfit): (Vec<&str>, Vec<&str>) = filters.into_iter().partition(meets);
+    match (fit.is_empty(), unfit.is_empty()) {
+        (true, true) => String::new(),
+        (false, true) => "Every filter meets every requirement.".to_owned(),
+        (true, false) => "No filter meets every requirement.".to_owned(),
+        (false, false) => format!(
+            "Every requirement is met by {}, not by {}.",
+            fit.join(", "),
+            unfit.join(", ")
+        ),
     }
 }
 
