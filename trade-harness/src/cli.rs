@@ -3,7 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use study::{Assignment, FilterChoice, ForeignFilter, Grid, Isolation, Mapping, Plan, Shard, Variation, check_case};
+use study::{
+    Assignment, FilterChoice, ForeignFilter, Grid, Isolation, Mapping, Phase, Plan, Requirement, Shard, Variation,
+    check_case, inline,
+};
 
 use crate::pack;
 use crate::tuning::ranges::Range;
@@ -336,6 +339,13 @@ pub struct CompareArgs {
     /// Cases with each of these values, combined with those of every other --grid; repeatable
     #[arg(long = "grid", value_name = "MODEL.VARIABLE=VALUE,VALUE,...", value_parser = Grid::axis)]
     pub grids: Vec<Grid>,
+    /// Score a part of the runs by itself, in the words of a study file: 'name = "last", from_s = 4480'; repeatable
+    #[arg(long = "phase", value_name = "TABLE", value_parser = inline::<Phase>)]
+    pub phases: Vec<Phase>,
+    /// Require something, in the words of a study file: 'metric = "pos_rmse_m", phase = "last", at_most = 0.5'; exit code 1 when
+    /// it is missed; repeatable
+    #[arg(long = "require", value_name = "TABLE", value_parser = inline::<Requirement>)]
+    pub requirements: Vec<Requirement>,
     /// Length of the runs, s [default: the mission's]
     #[arg(long, value_name = "S", value_parser = seconds)]
     pub duration: Option<f64>,

@@ -1,8 +1,10 @@
 //! Study files: a plan as TOML.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use interface::mission::Problem;
+use serde::de::DeserializeOwned;
 
 use crate::error::StudyError;
 use crate::plan::Plan;
@@ -93,9 +95,35 @@ impl Plan {
     }
 }
 
+/// One table of a study file as a command line gives it: `name = "last", from_s = 4480`.
+///
+/// # Errors
+/// What the parser says.
+pub fn inline<T: DeserializeOwned>(text: &str) -> Result<T, String> {
+    let whole = format!("table = {{ {text} }}");
+    let mut table: BTreeMap<String, T> = toml::from_str(&whole).map_err(|error| {
+        let problem = Problem::of_toml("", &whole, &error).what;
+        format!("'{text}' is no part of a study file: {problem}")
+    })?;
+    table.remove("table").ok_or_else(|| format!("'{text}' holds nothing"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::requirement::Requirement;
+    use interface::mission::Phase;
+
+    #[test]
+    fn a_table_on_the_command_line_has_the_words_of_the_file() {
+        let phase: Phase = inline("name = \"last\", from_s = 4480").unwrap();
+        assert_eq!((phase.name.as_str(), phase.from_s), ("last", Some(4480.0)));
+        let asked: Requirement = inline("metric = \"nees\", at_most = 2").unwrap();
+        assert_eq!((asked.metric.as_str(), asked.at_most), ("nees", Some(2.0)));
+        let error = inline::<Requirement>("metric = \"nees\", at_mots = 2").unwrap_err();
+        assert!(error.contains("did you mean `at_most`"), "{error}");
+        assert!(inline::<Phase>("last").is_err());
+    }
 
     #[test]
     fn mistakes_are_told_with_place_and_what_is_allowed() {

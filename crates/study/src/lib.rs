@@ -53,6 +53,7 @@ pub mod worlds;
 pub use arguments::{Assignment, FilterChoice, ForeignFilter, Mapping, PAPER};
 pub use calibration::{Calibration, Check, calibrate};
 pub use error::{StudyError, chain};
+pub use file::inline;
 pub use fold::{FilterResult, RunRow, Timing};
 pub use grid::{Grid, Setting};
 pub use interface::Status;

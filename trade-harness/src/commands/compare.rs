@@ -135,6 +135,8 @@ fn asked(args: &CompareArgs) -> Result<Plan, HarnessError> {
         isolation: args.isolation.changed(&plan.isolation),
         case: args.case.clone().or(plan.case.clone()),
         duration_s: args.duration.or(plan.duration_s),
+        phases: plan.phases.iter().chain(&args.phases).cloned().collect(),
+        requirements: plan.requirements.iter().chain(&args.requirements).cloned().collect(),
         grids: plan.grids.iter().chain(&args.grids).cloned().collect(),
         ..plan
     };
