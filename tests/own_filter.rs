@@ -8,6 +8,7 @@ mod common;
 use common::{harness, harness_ok, read_csv, root, skipped};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 const C: &str = "examples/06_own_filter_in_c";
 
@@ -164,8 +165,13 @@ fn names_of_ones_own_are_read_from_a_file() {
     assert!(mapped[0] > 0.05 && mapped[0] < 20.0, "{mapped:?}");
 }
 
-/// PythonFMU in an environment of its own; `None` without Python.
-fn python_fmu() -> Option<PathBuf> {
+/// PythonFMU in an environment of its own; `None` without Python. Tests of this program run side by side, and one alone makes it.
+fn python_fmu() -> Option<&'static Path> {
+    static MADE: OnceLock<Option<PathBuf>> = OnceLock::new();
+    MADE.get_or_init(make_python_fmu).as_deref()
+}
+
+fn make_python_fmu() -> Option<PathBuf> {
     let environment = root().join("target/pythonfmu");
     let program = environment.join("bin/pythonfmu");
     if program.is_file() {
