@@ -89,6 +89,14 @@ pub(crate) fn lines(table: &Table) -> String {
         .join("\n")
 }
 
+/// Width of what a terminal shows.
+pub(crate) const TERMINAL: usize = 80;
+
+/// A line that is broken where it is wider than a terminal, what follows set under its ninth letter.
+pub(crate) fn wrapped(line: &str) -> String {
+    textwrap::fill(line, textwrap::Options::new(TERMINAL).subsequent_indent("        "))
+}
+
 /// Where the cells of a column of a Markdown table stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Align {

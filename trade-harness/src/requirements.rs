@@ -6,7 +6,7 @@ use serde::Serialize;
 use study::{FilterResult, PhaseRun, PhaseSummary, Requirement, Study, StudyResult, Summary};
 
 use crate::HarnessError;
-use crate::format::{number as short, plain_table};
+use crate::format::{number as short, wrapped};
 use crate::report::column::{self, Column, count, find, number, text};
 use crate::report::{phases, summary};
 
@@ -371,20 +371,39 @@ pub fn render_csv(verdicts: &[Verdict]) -> Result<Vec<u8>, HarnessError> {
     column::render(COLUMNS, verdicts)
 }
 
-/// The table for the terminal, without a final newline.
+/// What a terminal of 80 columns shows, by world and case, without a final newline.
 pub fn render(verdicts: &[Verdict]) -> String {
-    let cells = |v: &Verdict| {
+    let line = |v: &Verdict| {
         let percent = v.margin_percent().map_or_else(String::new, |p| format!(" ({p:+.1} %)"));
-        vec![
-            v.word().to_owned(),
-            format!("{}, {}", v.scenario, v.case),
-            v.filter.clone(),
-            v.requirement.to_string(),
+        let unit = if v.unit == "1" {
+            String::new()
+        } else {
+            format!(" {}", v.unit)
+        };
+        let mut text = format!(
+            "{:6}  {}: {}: {}{unit}, margin {}{percent}",
+            v.word(),
+            v.filter,
+            v.requirement,
             short(v.value),
-            format!("{}{percent}", short(v.margin)),
-            v.reason(),
-        ]
+            short(v.margin)
+        );
+        if !v.reason().is_empty() {
+            text.push_str(&format!("; {}", v.reason()));
+        }
+        wrapped(&text)
     };
-    let headers = ["verdict", "case", "filter", "requirement", "value", "margin", "because"];
-    plain_table(headers, 4, verdicts.iter().map(cells))
+    let place = |v: &Verdict| (v.scenario.clone(), v.case.clone());
+    let mut places: Vec<(String, String)> = Vec::new();
+    for own in verdicts.iter().map(place) {
+        if !places.contains(&own) {
+            places.push(own);
+        }
+    }
+    let mut lines = Vec::new();
+    for own in places {
+        lines.push(format!("{}, case {}", own.0, own.1));
+        lines.extend(verdicts.iter().filter(|v| place(v) == own).map(line));
+    }
+    lines.join("\n")
 }

@@ -147,6 +147,7 @@ fn pooled_requirements_are_missed_by_failures_and_shares_count_them() {
         table.contains("MISSED") && table.contains("pos_rmse_m at most 100"),
         "{table}"
     );
+    assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
     let csv = String::from_utf8(render_csv(&found).unwrap()).unwrap();
     assert_eq!(csv.lines().count(), 8);
 }

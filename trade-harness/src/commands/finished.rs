@@ -9,6 +9,7 @@ use super::report::write_page;
 use super::shared::{closing, note};
 use crate::HarnessError;
 use crate::claims;
+use crate::format::wrapped;
 use crate::output::OutputFolder;
 use crate::report::summary::COLUMNS;
 use crate::report::table;
@@ -174,7 +175,7 @@ fn print(
         }
         // What a source claims is claimed of its own world, not of a changed one.
         for note in &world.notes {
-            out.say(&format!("note: {note}"))?;
+            out.say(&wrapped(&format!("note: {note}")))?;
         }
         let verdicts = if plan.of_case(&study.case).as_published() {
             claims::verdicts(&world.name, &rows)
@@ -185,7 +186,8 @@ fn print(
             out.say(&format!("\n{}", table::render_axes(&rows, world.axes.names())))?;
         }
         if !verdicts.is_empty() {
-            out.say(&format!("\n{}\n{}", world.reference, claims::render(&verdicts)))?;
+            let claims: Vec<String> = claims::render(&verdicts).lines().map(wrapped).collect();
+            out.say(&format!("\n{}\n{}", world.reference, claims.join("\n")))?;
         }
         told.push(json!({
             "scenario": world.name, "case": study.case, "runs": study.runs, "seed": study.spec.seed,

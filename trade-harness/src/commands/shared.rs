@@ -12,6 +12,7 @@ use study::{
 use super::out::Out;
 use crate::HarnessError;
 use crate::cli::{BuildArgs, StudyArgs, WorkArgs, WorldArgs};
+use crate::format::TERMINAL;
 use crate::output::OutputFolder;
 use crate::pack::{default_folder, fmu_path};
 use crate::report::manifest::peak_memory_mib;
@@ -49,15 +50,11 @@ pub(super) fn closing(folder: &OutputFolder, files: &[String], out: &mut Out<'_>
             None => whole.push(name.clone()),
         }
     }
-    whole.extend(
-        inside
-            .iter()
-            .map(|(folder, count)| format!("{folder}/ ({count} files)")),
-    );
+    whole.extend(inside.iter().map(|(folder, count)| format!("{folder}/ ({count})")));
     out.say(&format!("Results: {}", folder.path().display()))?;
     out.say(&textwrap::fill(
         &whole.join(", "),
-        textwrap::Options::new(80)
+        textwrap::Options::new(TERMINAL)
             .initial_indent("         ")
             .subsequent_indent("         "),
     ))?;
