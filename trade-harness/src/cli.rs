@@ -359,7 +359,7 @@ pub struct CompareArgs {
     #[command(flatten)]
     pub isolation: IsolationArgs,
     /// End with exit code 1 when the scenario as published misses one of its bounds
-    #[arg(long, conflicts_with_all = ["assignments", "variations", "truth"])]
+    #[arg(long, conflicts_with_all = ["assignments", "variations", "truth", "drivers", "duration", "grids"])]
     pub check: bool,
     /// Do not write report.html
     #[arg(long)]
@@ -734,6 +734,9 @@ mod tests {
             (&["--steps", "1"], "--step"),
             (&["--check", "--set", "fmu-truth.vent.scale=0"], "--check"),
             (&["--check", "--vary", "fmu-truth.vent.scale=uniform:0:1"], "--check"),
+            (&["--check", "--duration", "900"], "--duration"),
+            (&["--check", "--drive", "push=p.fmu"], "--drive"),
+            (&["--check", "--grid", "fmu-truth.vent.scale=1,10"], "--grid"),
             (&["--vary", "fmu-truth.vent.scale=uniform:2:1"], "2 to 1 is empty"),
             (&["--vary", "fmu-truth.vent.scale"], "uniform:LOW:HIGH"),
         ] {

@@ -345,7 +345,9 @@ impl Plan {
 
     /// Whether the worlds are the missions as they stand.
     pub fn as_published(&self) -> bool {
-        self.assignments.is_empty() && self.variations.is_empty() && self.truth.is_none()
+        let undisturbed = self.truth.is_none() && self.drive.is_empty();
+        let unchanged = self.assignments.is_empty() && self.variations.is_empty();
+        undisturbed && unchanged && self.duration_s.is_none()
     }
 
     /// Text of the `case` column: as given, or what differs.
@@ -733,6 +735,24 @@ mod tests {
             ))
         };
         assert!(long("1").len() <= LONGEST_CASE && long("1") != long("2"));
+    }
+
+    /// What a source claims is claimed of its own world.
+    #[test]
+    fn a_world_is_as_published_unless_something_acts_on_it() {
+        let published = |text: &str| read(text).unwrap().as_published();
+        assert!(published(
+            r#"{"runs": 7, "seed": 3, "step_s": 0.25, "scheme": "jacobi"}"#
+        ));
+        for changed in [
+            r#"{"duration_s": 900}"#,
+            r#"{"set": ["fmu-truth.vent.scale=10"]}"#,
+            r#"{"vary": ["fmu-truth.vent.scale=uniform:0:1"]}"#,
+            r#"{"drive": ["push=p.fmu"]}"#,
+            r#"{"truth": "t.fmu"}"#,
+        ] {
+            assert!(!published(changed), "{changed}");
+        }
     }
 
     #[test]
