@@ -50,8 +50,11 @@ if [ -x "$python" ]; then
             "$program" compare "${ours[@]}" --preload "$interpreter" --quiet --runs 2 --filters fixed_q \
                 --nav toy="$work/Toy.fmu" "$@"
         }
+        # A study of earlier FMUs is another one.
+        rm -rf "$work/toy" "$work/toy-stops"
         study --set fmu-truth.lidar.sigma_range=0 --set fmu-truth.lidar.sigma_angle=0 --out "$work/toy" >/dev/null
-        study --set toy.stop_after=400 --out "$work/toy-stops" >/dev/null 2>"$work/toy.log"
+        # It fails in every run, which is an exit code of its own.
+        study --set toy.stop_after=400 --out "$work/toy-stops" >/dev/null 2>"$work/toy.log" || [ $? = 1 ]
         "$python" "$here/toy_check.py" "$work/toy" "$work/toy-stops"
     else
         skipped PythonFMU libpython3-dev
