@@ -7,7 +7,7 @@
 
 mod common;
 
-use common::{fmu, harness_ok, read_csv, root, skipped};
+use common::{fmu, harness_ok, read_csv, root, skipped, virtual_environment};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
@@ -18,29 +18,12 @@ fn python() -> Option<&'static Path> {
     PYTHON
         .get_or_init(|| {
             let environment = root().join("target/fmpy");
-            let python = environment.join("bin/python");
             let requirements = root().join("tests/fmpy/requirements.txt");
             let installed = environment.join("requirements.txt");
             if std::fs::read(&installed).ok() == std::fs::read(&requirements).ok() {
-                return Some(python);
+                return Some(environment.join("bin/python"));
             }
-            let made = Command::new("python3")
-                .args(["-m", "venv", "--clear"])
-                .arg(&environment)
-                .output();
-            if !made.is_ok_and(|output| output.status.success()) {
-                return None;
-            }
-            let pip = [
-                "-m",
-                "pip",
-                "install",
-                "--quiet",
-                "--disable-pip-version-check",
-                "--requirement",
-            ];
-            let output = Command::new(&python).args(pip).arg(&requirements).output().unwrap();
-            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+            let python = virtual_environment(&environment, &["--requirement", requirements.to_str().unwrap()])?;
             std::fs::copy(&requirements, &installed).unwrap();
             Some(python)
         })

@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{harness, harness_ok, read_csv, root, skipped};
+use common::{harness, harness_ok, read_csv, root, skipped, virtual_environment};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
@@ -177,23 +177,7 @@ fn make_python_fmu() -> Option<PathBuf> {
     if program.is_file() {
         return Some(program);
     }
-    let made = Command::new("python3")
-        .args(["-m", "venv", "--clear"])
-        .arg(&environment)
-        .output();
-    if !made.is_ok_and(|output| output.status.success()) {
-        return None;
-    }
-    let pip = [
-        "-m",
-        "pip",
-        "install",
-        "--quiet",
-        "--disable-pip-version-check",
-        "pythonfmu==0.7.0",
-    ];
-    let output = Command::new(environment.join("bin/python")).args(pip).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    virtual_environment(&environment, &["pythonfmu==0.7.0"])?;
     Some(program)
 }
 

@@ -114,6 +114,24 @@ pub fn harness_ok(arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
+/// Makes a virtual environment anew and installs packages into it; its Python, or `None` without one to make it with.
+///
+/// * `packages`: as pip takes them.
+pub fn virtual_environment(environment: &Path, packages: &[&str]) -> Option<PathBuf> {
+    let made = Command::new("python3")
+        .args(["-m", "venv", "--clear"])
+        .arg(environment)
+        .output();
+    if !made.is_ok_and(|output| output.status.success()) {
+        return None;
+    }
+    let python = environment.join("bin/python");
+    let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
+    let output = Command::new(&python).args(pip).args(packages).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    Some(python)
+}
+
 /// Says on the terminal, past the test runner's capture, that a test could not run and what it lacks.
 pub fn skipped(test: &str, package: &str) {
     let _ = writeln!(std::io::stderr(), "SKIPPED {test}: needs the system package {package}");

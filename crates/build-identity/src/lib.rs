@@ -119,6 +119,25 @@ fn dependencies(manifest: &str) -> impl Iterator<Item = &str> {
     })
 }
 
+/// What the build script of an FMU does: tells cargo its GUID, as `FMU_GUID`, and what to watch.
+///
+/// * `folder`: of the FMU's crate, in the workspace; `name`: of that crate.
+///
+/// # Errors
+/// A source that cannot be read.
+#[allow(clippy::print_stdout, reason = "how a build script talks to cargo")]
+pub fn tell_cargo(folder: &Path, name: &str) -> io::Result<()> {
+    let inputs = Inputs::of(&folder.join(".."), name)?;
+    let features: BTreeSet<String> = std::env::vars()
+        .filter_map(|(key, _)| key.strip_prefix("CARGO_FEATURE_").map(str::to_owned))
+        .collect();
+    println!("cargo:rustc-env=FMU_GUID={}", inputs.guid(&features)?);
+    for path in inputs.watched() {
+        println!("cargo:rerun-if-changed={}", path.display());
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -406,6 +406,18 @@ impl Plan {
             .map_or(1, usize::from)
     }
 
+    /// Without how it is carried out, threads and processes, which changes no number.
+    pub fn without_means(&self) -> Self {
+        Self {
+            jobs: None,
+            isolation: Isolation {
+                isolate: None,
+                ..self.isolation.clone()
+            },
+            ..self.clone()
+        }
+    }
+
     /// The plan of one of its studies alone, with nothing left to a default: what it takes to run that study again.
     pub fn resolved(&self, spec: &Spec) -> Self {
         let named = spec.world.mission_file.is_none();
@@ -426,12 +438,7 @@ impl Plan {
             assignments: self.in_fmus().cloned().collect(),
             filters: Some(labels.filter_map(|label| label.parse().ok()).collect()),
             case: Some(self.case_text()),
-            jobs: None,
-            // Where runs are made changes no number either.
-            isolation: Isolation {
-                isolate: None,
-                ..self.isolation.clone()
-            },
+
             duration_s: Some(spec.world.duration_s),
             step_s: Some(spec.step),
             tuned: self
@@ -440,7 +447,7 @@ impl Plan {
                 .filter(|t| t.scenario == spec.world.name)
                 .cloned()
                 .collect(),
-            ..self.clone()
+            ..self.without_means()
         }
     }
 }

@@ -159,9 +159,9 @@ fn inputs(plan: &Plan, studies: &[Study]) -> Result<BTreeMap<String, String>, Ha
             _ => None,
         }
     });
-    let named = plan.missions.iter().chain(&plan.map_files).cloned();
     let digest = |path: PathBuf| Ok((path.display().to_string(), of_file(&path)?));
-    named.chain(coefficients).map(digest).collect()
+    // Tuned sets and mappings stand in the plan itself.
+    plan.missions.iter().cloned().chain(coefficients).map(digest).collect()
 }
 
 /// Does something with every item, on some threads.

@@ -1,7 +1,7 @@
 //! What becomes of finished studies: files and tables.
 
 use serde_json::{Value, json};
-use study::{Calibration, Isolation, Models, Output, Plan, Study, StudyResult, Summary, Workers, chain};
+use study::{Calibration, Models, Output, Plan, Study, StudyResult, Summary, Workers, chain};
 
 use super::files::{Report, Told};
 use super::out::Out;
@@ -31,16 +31,11 @@ fn whole(plan: &Plan, studies: &[Study]) -> Result<Plan, HarnessError> {
     let same = first.filter(|first| labels.all(|other| other == *first));
     let plan = Plan {
         filters: same.or(plan.filters.clone()),
-        jobs: None,
-        isolation: Isolation {
-            isolate: None,
-            ..plan.isolation.clone()
-        },
         output: Output {
             folder: None,
             ..plan.output.clone()
         },
-        ..plan.clone()
+        ..plan.without_means()
     };
     Ok(plan.with_whole_paths()?)
 }

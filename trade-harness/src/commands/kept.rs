@@ -34,15 +34,8 @@ impl Kept {
             let model = models.all().find(|model| model.name == name);
             model.map(|model| whole(model.fmu.path())).transpose()
         };
-        let mut plan = plan.clone();
-        for path in plan.missions.iter_mut().chain(&mut plan.truth) {
-            *path = whole(path)?;
-        }
-        for foreign in plan.foreign.iter_mut().chain(&mut plan.drive) {
-            foreign.path = whole(&foreign.path)?;
-        }
         Ok(Self {
-            plan,
+            plan: plan.clone().with_whole_paths()?,
             truth: own(TRUTH)?,
             nav: own(NAV)?,
         })
