@@ -108,7 +108,6 @@ fn a_varied_run_is_replayed_with_its_own_values() {
     );
 }
 
-/// One of our filters as a stranger's, with a covariance that overflows at its first sample.
 /// A study is made again from its file and from its manifest, cases of a grid and all; another FMU or mission is told.
 #[test]
 fn a_study_is_made_again_to_the_last_byte_and_what_has_changed_is_told() {
@@ -156,6 +155,58 @@ fn a_study_is_made_again_to_the_last_byte_and_what_has_changed_is_told() {
         "{said}"
     );
     assert!(!at("three").exists());
+}
+
+/// A filter that no setting of a case concerns is run for the first alone; in a world that a mission file changes, too.
+#[test]
+fn what_cases_have_in_common_is_run_once_and_gives_what_it_gives_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = |name: &str, more: &[&str]| {
+        let out = folder.path().join(name);
+        let what = [
+            "compare",
+            "--filters",
+            "snc,milton@consistent",
+            "--runs",
+            "2",
+            "--duration",
+            "600",
+            "--set",
+            "mission.vent.co2.period_s=300",
+        ];
+        harness_ok(&[&what, more, &["--out", text(&out)]].concat());
+        results(&out)
+    };
+    let grid = study("grid", &["--grid", "fmu-nav.milton.m_b=20,30"]);
+    let isolated = study("isolated", &["--grid", "fmu-nav.milton.m_b=20,30", "--isolate"]);
+    let rows = read_csv(&folder.path().join("grid/timing.csv"));
+    let time = |filter: &str, m_b: u32| {
+        let case = format!("milton.m_b-{m_b}");
+        let row = rows
+            .iter()
+            .find(|row| row["filter"] == filter && row["case"].contains(&case));
+        row.unwrap()["nav_us_per_step"].clone()
+    };
+    assert_eq!(time("snc", 20), time("snc", 30), "measured once");
+    assert_ne!(
+        time("milton@consistent", 20),
+        time("milton@consistent", 30),
+        "measured twice"
+    );
+
+    let epochs = |results: &BTreeMap<String, Vec<u8>>, part: &str| -> Vec<Vec<u8>> {
+        let of_part = results
+            .iter()
+            .filter(|(name, _)| name.starts_with("epochs") && name.contains(part));
+        of_part.map(|(_, contents)| contents.clone()).collect()
+    };
+    for m_b in ["20", "30"] {
+        let alone = study(m_b, &["--set", &format!("fmu-nav.milton.m_b={m_b}"), "--case", "alone"]);
+        let case = epochs(&grid, &format!("m_b-{m_b}"));
+        assert_eq!(case.len(), 2);
+        assert!(case == epochs(&alone, "alone"), "m_b {m_b}");
+        assert!(case == epochs(&isolated, &format!("m_b-{m_b}")), "m_b {m_b}");
+    }
 }
 
 #[test]

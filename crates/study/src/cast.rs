@@ -141,6 +141,12 @@ impl Models {
         chosen
     }
 
+    /// Whether a setting is one of this filter's own, or of no filter in particular.
+    fn concerns(&self, assignment: &Assignment, choice: &FilterChoice) -> bool {
+        let owner = assignment.variable.split_once('.').map_or("", |(owner, _)| owner);
+        assignment.model != NAV || owner == choice.name || !self.has_filter(owner)
+    }
+
     /// Whether fmu-nav has a filter of this name.
     fn has_filter(&self, name: &str) -> bool {
         let filter = self.nav.as_ref().and_then(|nav| nav.description().get("filter"));
@@ -255,7 +261,8 @@ impl Models {
                     why: why.to_owned(),
                 });
             }
-            filters.push(starts.assign(assignments)?.named(&choice.label));
+            let concerned = assignments.iter().filter(|a| self.concerns(a, choice));
+            filters.push(starts.assign(concerned)?.named(&choice.label));
         }
         for model in &self.foreign {
             filters.push(

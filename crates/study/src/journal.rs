@@ -33,7 +33,8 @@ type Places = BTreeMap<u32, (u64, u32)>;
 
 #[derive(Debug)]
 struct State {
-    file: File,
+    /// `None` while nothing is written: a study of many cases keeps all its journals at hand.
+    file: Option<File>,
     /// Where the next frame goes.
     end: u64,
     places: Places,
@@ -80,7 +81,11 @@ impl Journal {
         };
         Ok(Self {
             path: path.to_owned(),
-            state: Mutex::new(State { file, end, places }),
+            state: Mutex::new(State {
+                file: Some(file),
+                end,
+                places,
+            }),
             spare: Mutex::default(),
         })
     }
@@ -95,15 +100,14 @@ impl Journal {
     /// # Errors
     /// [`StudyError::Journal`].
     pub fn read(&self, run: u32) -> Result<Option<Outcome>, StudyError> {
-        let mut state = self.state();
-        let Some((begin, length)) = state.places.get(&run).copied() else {
+        let Some((begin, length)) = self.state().places.get(&run).copied() else {
             return Ok(None);
         };
         let mut contents = vec![0; length as usize];
-        let read = state
-            .file
-            .seek(SeekFrom::Start(begin))
-            .and_then(|_| state.file.read_exact(&mut contents));
+        let read = File::open(&self.path).and_then(|mut file| {
+            file.seek(SeekFrom::Start(begin))?;
+            file.read_exact(&mut contents)
+        });
         read.map_err(|source| self.failed(source))?;
         let outcome = Outcome::from_bytes(&contents);
         outcome.map(Some).map_err(|e| self.failed(io::Error::other(e)))
@@ -125,13 +129,14 @@ impl Journal {
         frame[8..12].copy_from_slice(&checksum.to_le_bytes());
         let mut state = self.state();
         let begin = state.end;
-        let written = state
-            .file
-            .seek(SeekFrom::Start(begin))
-            .and_then(|_| state.file.write_all(&frame));
+        let file = match &mut state.file {
+            Some(file) => file,
+            resting => resting.insert(self.reopened()?),
+        };
+        let written = file.seek(SeekFrom::Start(begin)).and_then(|_| file.write_all(&frame));
         if let Err(source) = written {
             // What was written of it is cut off at the next opening, if not now.
-            let _ = state.file.set_len(begin);
+            let _ = file.set_len(begin);
             return Err(self.failed(source));
         }
         state.end += frame.len() as u64;
@@ -140,6 +145,17 @@ impl Journal {
         frame.clear();
         self.spare().push(frame);
         Ok(())
+    }
+
+    /// Lets go of file and memory until the next run is added.
+    pub fn rest(&self) {
+        self.state().file = None;
+        self.spare().clear();
+    }
+
+    fn reopened(&self) -> Result<File, StudyError> {
+        let file = OpenOptions::new().write(true).open(&self.path);
+        file.map_err(|source| self.failed(source))
     }
 
     fn state(&self) -> MutexGuard<'_, State> {

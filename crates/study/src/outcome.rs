@@ -34,6 +34,28 @@ pub struct Part {
 }
 
 impl Outcome {
+    /// A run of which nothing is known yet.
+    pub(crate) fn begun(run: u32) -> Self {
+        Self {
+            run,
+            steps: 0,
+            truth_time: SlaveTime::default(),
+            path: Vec::new(),
+            parts: Vec::new(),
+        }
+    }
+
+    /// Takes what is known of the same run from a flight with other filters, apart from what these did in it.
+    pub(crate) fn join(&mut self, other: Self) {
+        if other.steps >= self.steps {
+            (self.steps, self.truth_time) = (other.steps, other.truth_time);
+        }
+        // A point is kept at an epoch that some filter has an estimate of.
+        self.path.extend(other.path);
+        self.path.sort_by_key(|point| point.epoch);
+        self.path.dedup_by_key(|point| point.epoch);
+    }
+
     /// Makes a run.
     pub fn of(spec: &Spec, run: u32) -> Self {
         let epochs = spec.epochs();

@@ -119,8 +119,14 @@ impl<'a> StartValues<'a> {
         Ok(())
     }
 
-    pub(crate) fn assign(mut self, assignments: &[Assignment]) -> Result<Self, StudyError> {
-        for Assignment { variable, value, .. } in assignments.iter().filter(|a| a.model == self.model.name) {
+    /// Sets what is meant for this FMU.
+    pub(crate) fn assign<'t>(
+        mut self,
+        assignments: impl IntoIterator<Item = &'t Assignment>,
+    ) -> Result<Self, StudyError> {
+        let model = self.model;
+        let own = assignments.into_iter().filter(|a| a.model == model.name);
+        for Assignment { variable, value, .. } in own {
             check_parameter(self.model, variable)?;
             self.set(variable, value)?;
         }

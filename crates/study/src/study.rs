@@ -3,11 +3,12 @@
 use std::time::{Duration, Instant};
 
 use crate::error::StudyError;
+use crate::flown::Flown;
 use crate::fold::{FilterResult, RunRow};
 use crate::journal::Journal;
 use crate::kept::PathPoint;
 use crate::ordered::in_order;
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, Part};
 use crate::shard::Shard;
 use crate::spec::Spec;
 use crate::stop::stop_asked;
@@ -37,6 +38,8 @@ pub struct Engine<'a> {
     pub journal: Option<&'a Journal>,
     /// Processes that make the runs; `None`: this one.
     pub workers: Option<&'a Workers>,
+    /// What need not be run, since an earlier case has.
+    pub flown: Option<&'a Flown<'a>>,
 }
 
 /// Everything a study found.
@@ -119,13 +122,30 @@ impl Study {
         if let Some(kept) = engine.journal.map(|journal| journal.read(run)).transpose()?.flatten() {
             return Ok(kept);
         }
-        let outcome = match engine.workers {
-            _ if stop_asked() => None,
-            Some(workers) => Some(workers.run(&self.spec, run)?),
-            None => Some(Outcome::of(&self.spec, run)),
-        };
+        let mut whole = Outcome::begun(run);
+        let mut parts: Vec<Option<Part>> = self.spec.filters.iter().map(|_| None).collect();
+        if let Some(flown) = engine.flown {
+            flown.fill(&mut whole, &mut parts)?;
+        }
+        let open: Vec<usize> = (0..parts.len()).filter(|place| parts[*place].is_none()).collect();
+        if !open.is_empty() {
+            let mut made = match engine.workers {
+                _ if stop_asked() => return Err(StudyError::Stopped),
+                Some(workers) => workers.run(&self.spec, &open, run)?,
+                None if open.len() == parts.len() => Outcome::of(&self.spec, run),
+                None => Outcome::of(&self.spec.subset(&open), run),
+            };
+            for (place, part) in open.into_iter().zip(std::mem::take(&mut made.parts)) {
+                parts[place] = Some(part);
+            }
+            whole.join(made);
+        }
         // A run that was broken off is none.
-        let outcome = outcome.filter(|_| !stop_asked()).ok_or(StudyError::Stopped)?;
+        if stop_asked() {
+            return Err(StudyError::Stopped);
+        }
+        whole.parts = parts.into_iter().flatten().collect();
+        let outcome = whole;
         if let Some(journal) = engine.journal {
             journal.append(&outcome)?;
         }

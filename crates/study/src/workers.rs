@@ -97,22 +97,20 @@ impl Workers {
         }
     }
 
-    /// Makes a run. A filter that kills its worker has failed this run; the others are run again without it.
+    /// Makes a run with some of the filters. One that kills its worker has failed this run; the others are run again
+    /// without it.
+    ///
+    /// * `filters`: their places in the study.
+    /// * returns: the run, with a part for each of them in the same order.
     ///
     /// # Errors
     /// [`StudyError::Worker`], [`StudyError::Stopped`].
-    pub(crate) fn run(&self, spec: &Spec, run: u32) -> Result<Outcome, StudyError> {
+    pub(crate) fn run(&self, spec: &Spec, filters: &[usize], run: u32) -> Result<Outcome, StudyError> {
         let suspects = self.suspects().clone();
-        let (alone, together): (Vec<usize>, Vec<usize>) = (0..spec.filters.len()).partition(|f| suspects.contains(f));
+        let (alone, together): (Vec<usize>, Vec<usize>) = filters.iter().partition(|f| suspects.contains(f));
         let mut groups: Vec<Vec<usize>> = alone.into_iter().map(|filter| vec![filter]).collect();
         groups.extend(Some(together).filter(|group| !group.is_empty()));
-        let mut whole = Outcome {
-            run,
-            steps: 0,
-            truth_time: SlaveTime::default(),
-            path: Vec::new(),
-            parts: Vec::new(),
-        };
+        let mut whole = Outcome::begun(run);
         let mut parts: Vec<Option<Part>> = spec.filters.iter().map(|_| None).collect();
         while let Some(filters) = groups.pop() {
             let request = Request::Run {
@@ -121,16 +119,11 @@ impl Workers {
             };
             match self.ask(&request) {
                 Ok(Message::Run(bytes)) => {
-                    let outcome = Outcome::from_bytes(&bytes).map_err(|e| worker_error(io::Error::other(e)))?;
-                    if outcome.steps >= whole.steps {
-                        (whole.steps, whole.truth_time) = (outcome.steps, outcome.truth_time);
-                    }
-                    if outcome.path.len() > whole.path.len() {
-                        whole.path = outcome.path;
-                    }
-                    for (place, part) in filters.into_iter().zip(outcome.parts) {
+                    let mut outcome = Outcome::from_bytes(&bytes).map_err(|e| worker_error(io::Error::other(e)))?;
+                    for (place, part) in filters.into_iter().zip(std::mem::take(&mut outcome.parts)) {
                         parts[place] = Some(part);
                     }
+                    whole.join(outcome);
                 }
                 Ok(_) => return Err(out_of_turn()),
                 Err(Lost::Died { participant, message }) => {
@@ -157,7 +150,7 @@ impl Workers {
                 Err(lost) => return Err(lost.into()),
             }
         }
-        whole.parts = parts.into_iter().flatten().collect();
+        whole.parts = filters.iter().filter_map(|place| parts[*place].take()).collect();
         Ok(whole)
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use study::{Engine, Journal, Models, Output, Plan, Shard, Workers, rehearse};
+use study::{Engine, Flown, Journal, Models, Output, Plan, Shard, rehearse};
 
 use super::finished::{Finished, finish};
 use super::kept::{KEPT, Kept, shard_folder};
@@ -89,11 +89,29 @@ pub(super) fn carry_out(plan: &Plan, models: &Models, way: &Way, out: &mut Out<'
     let folder = StudyFolder::claim(&place, &identity, way.claim)?;
     let studies = cast(plan, models, folder.output().path())?;
     let quiet = way.quiet;
+    let journals = studies.iter().map(|study| {
+        let journal = folder.journal(study)?;
+        journal.rest();
+        Ok(journal)
+    });
+    let journals: Vec<Journal> = journals.collect::<Result<_, HarnessError>>()?;
+    // A filter that cases have in common is run once.
+    let flown = studies.iter().enumerate().map(|(index, study)| {
+        let earlier = studies[..index].iter().map(|other| &other.spec);
+        Flown::of(&study.spec, earlier.zip(&journals))
+    });
+    let flown: Vec<Flown<'_>> = flown.collect();
+    let engine = |index: usize| Engine {
+        journal: journals.get(index),
+        workers: workers.get(index),
+        flown: flown.get(index),
+    };
     if let Some(shard) = way.shard {
         let kept = Kept::new(plan, models)?;
         folder.keep(KEPT, &json_bytes(&kept)?)?;
         for (index, study) in studies.iter().enumerate() {
-            shard_watched(study, shard, engine(&folder.journal(study)?, workers.get(index)), quiet)?;
+            shard_watched(study, shard, engine(index), quiet)?;
+            journals[index].rest();
         }
         let text = format!(
             "part {shard} is done: {}; 'trade-harness merge {}' when all are",
@@ -106,12 +124,11 @@ pub(super) fn carry_out(plan: &Plan, models: &Models, way: &Way, out: &mut Out<'
 
     let mut results = Vec::new();
     for (index, study) in studies.iter().enumerate() {
-        results.push(run_watched(
-            study,
-            engine(&folder.journal(study)?, workers.get(index)),
-            quiet,
-        )?);
+        results.push(run_watched(study, engine(index), quiet)?);
+        journals[index].rest();
     }
+    drop(flown);
+    drop(journals);
     let finished = Finished {
         studies: &studies,
         results: &results,
@@ -159,11 +176,4 @@ fn results(args: &CompareArgs, plan: &Plan) -> PathBuf {
         Path::new("results").join(stem.unwrap_or("compare".as_ref()))
     };
     args.out.clone().or(plan.output.folder.clone()).unwrap_or_else(own)
-}
-
-fn engine<'a>(journal: &'a Journal, workers: Option<&'a Workers>) -> Engine<'a> {
-    Engine {
-        journal: Some(journal),
-        workers,
-    }
 }

@@ -59,7 +59,7 @@ pub(super) fn merge(args: &MergeArgs, out: &mut Out<'_>) -> Result<Verdict, Harn
         let journal = folder.journal(study)?;
         let engine = Engine {
             journal: Some(&journal),
-            workers: None,
+            ..Engine::default()
         };
         run_watched(study, engine, args.quiet)
     });
