@@ -42,6 +42,7 @@ impl Model for NavModel {
         Self {
             choice: Choice::default(),
             settings: Settings::default(),
+            resolved: Vec::new(),
             inputs: Signals::default(),
             navigator: None,
         }
@@ -58,6 +59,7 @@ impl Model for NavModel {
     fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError> {
         let navigation = self.choice.mission()?.navigation();
         self.navigator = Some(Navigator::new(&navigation, &self.settings, experiment.start_time)?);
+        self.resolved = self.settings.resolved(&navigation)?;
         log.event(format_args!(
             "filter {} in mission {} starts at t = {} s",
             self.settings.filter()?.name,

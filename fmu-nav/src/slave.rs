@@ -12,6 +12,8 @@ pub struct NavModel {
     pub choice: Choice,
     /// The other parameters.
     pub settings: Settings,
+    /// Values of the tunables that the mission may state, as they act; from initialization on.
+    pub resolved: Vec<f64>,
     /// Inputs as set; they take effect in a step only.
     pub inputs: Signals,
     /// The filter, from initialization on.

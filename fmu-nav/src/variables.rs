@@ -35,6 +35,11 @@ pub fn table() -> Table<NavModel> {
             tunable_row(&mut t, filter.name, tunable, f, i);
         }
     }
+    let tunables = FILTERS.iter().flat_map(|f| f.tunables.iter().map(|t| (f.name, t)));
+    let derived = tunables.filter(|(_, tunable)| tunable.kind.derived());
+    for (place, (filter, tunable)) in derived.enumerate() {
+        resolved_row(&mut t, filter, tunable, place);
+    }
     t.build()
 }
 
@@ -220,6 +225,20 @@ fn tunable_row(t: &mut Builder, filter: &str, tunable: &Tunable, f: usize, i: us
                 .rw(move |m| get(m) as i32 + 1, move |m, v| set(m, index(v)));
         }
     }
+}
+
+/// What a tunable that may be left to the mission comes to.
+fn resolved_row(t: &mut Builder, filter: &str, tunable: &Tunable, place: usize) {
+    let tunable::Kind::Real { unit, .. } = tunable.kind else {
+        return;
+    };
+    let name = format!("{filter}.{}", tunable.name);
+    let row = t.real(format!("resolved.{name}")).calculated_parameter();
+    let row = if unit.is_empty() { row } else { row.unit(unit) };
+    row.about(format!(
+        "{name} as it acts from initialization on: the mission's own value where it is left at -1"
+    ))
+    .get(move |m| m.resolved.get(place).copied().unwrap_or(Beliefs::OWN));
 }
 
 /// Unit of every element of a port.
@@ -454,9 +473,24 @@ mod tests {
         let rows = NavModel::table().rows();
         let of_a_law = |name: &str| FILTERS.iter().any(|f| name.starts_with(&format!("{}.", f.name)));
         let first = rows.iter().position(|row| of_a_law(&row.name)).unwrap();
-        assert!(rows[first..].iter().all(|row| of_a_law(&row.name)));
         let tunables: usize = FILTERS.iter().map(|f| f.tunables.len()).sum();
-        assert_eq!(rows.len() - first, tunables);
+        let (own, resolved) = rows[first..].split_at(tunables);
+        assert!(own.iter().all(|row| of_a_law(&row.name)));
+        assert!(resolved.iter().all(|row| row.name.starts_with("resolved.")));
+    }
+
+    /// What the mission states, what is set, and what follows from the mission's scales.
+    #[test]
+    fn a_tunable_left_to_the_mission_is_shown_as_it_acts() {
+        let mut model = started(1);
+        assert_eq!(real(&model, "resolved.milton.psi0"), -1.0);
+        let navigation = model.choice.mission().unwrap().navigation();
+        *model.settings.tunable_mut("milton", "psi0").unwrap() = tunable::Value::Real(7.5);
+        let model = initialised(model);
+        assert_eq!(real(&model, "milton.s0"), -1.0);
+        assert_eq!(real(&model, "resolved.milton.s0"), navigation.law["milton.s0"]);
+        assert_eq!(real(&model, "resolved.milton.psi0"), 7.5);
+        assert_eq!(real(&model, "resolved.dmc.sigma"), navigation.scale.disturbance_m_s2);
     }
 
     #[test]

@@ -315,6 +315,15 @@ fn documentation(name: &'static str, path: &Path, files: &BTreeMap<String, Vec<u
     Ok(html(fmu.description(), &filters_of(fmu.description())?).into_bytes())
 }
 
+/// Variables of an FMU by kind, with headings.
+pub(crate) const GROUPS: [(&str, Causality); 5] = [
+    ("Parameters", Causality::Parameter),
+    ("Calculated parameters", Causality::CalculatedParameter),
+    ("Inputs", Causality::Input),
+    ("Outputs", Causality::Output),
+    ("Local variables", Causality::Local),
+];
+
 const STYLE: &str = "body{font:15px/1.5 sans-serif;margin:2em auto;max-width:70em;padding:0 1em}\
 table{border-collapse:collapse}td,th{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left;vertical-align:top}\
 code{white-space:nowrap}";
@@ -346,16 +355,14 @@ fn html(d: &ModelDescription, filters: &Filters) -> String {
         }
         page.push_str("</table>\n");
     }
-    let groups = [
-        ("Parameters", Causality::Parameter),
-        ("Inputs", Causality::Input),
-        ("Outputs", Causality::Output),
-        ("Local variables", Causality::Local),
-    ];
-    for (title, causality) in groups {
+    for (title, causality) in GROUPS {
+        let of_kind = || d.variables.iter().filter(|v| v.causality == causality);
+        if of_kind().next().is_none() {
+            continue;
+        }
         page.push_str(&format!("<h2>{title}</h2>\n<table>\n"));
         page.push_str("<tr><th>name</th><th>type</th><th>unit</th><th>start</th><th>meaning</th></tr>\n");
-        for v in d.variables.iter().filter(|v| v.causality == causality) {
+        for v in of_kind() {
             let start = v.start().map(|s| v.format_value(&s)).unwrap_or_default();
             let cells = [
                 format!("<code>{}</code>", escape(&v.name)),

@@ -61,6 +61,28 @@ impl Settings {
         registry::entry(self.filter)
     }
 
+    /// Every real tunable that the mission may state, of every filter in their order, as it acts: what is set here, else
+    /// what the mission states, else what follows from its scales; -1 where that is nothing the tunable can take.
+    ///
+    /// # Errors
+    /// When a belief is out of range.
+    pub fn resolved(&self, navigation: &Navigation) -> Result<Vec<f64>, FilterError> {
+        let told = self.beliefs.over(navigation)?;
+        let of_filter = |(filter, values): (&FilterEntry, &Vec<Value>)| {
+            let tunables = Tunables {
+                law: filter.name,
+                declared: filter.tunables,
+                values,
+                told: &told,
+            };
+            let derived = filter.tunables.iter().filter(|tunable| tunable.kind.derived());
+            derived
+                .map(|tunable| tunables.real(tunable.name).unwrap_or(Beliefs::OWN))
+                .collect::<Vec<_>>()
+        };
+        Ok(FILTERS.iter().zip(&self.tunables).flat_map(of_filter).collect())
+    }
+
     /// The value of one tunable, to be changed.
     pub fn tunable_mut(&mut self, filter: &str, tunable: &str) -> Option<&mut Value> {
         let f = FILTERS.iter().position(|entry| entry.name == filter)?;

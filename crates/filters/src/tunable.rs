@@ -151,6 +151,17 @@ pub enum Value {
 }
 
 impl Kind {
+    /// Whether the mission may state the value.
+    pub fn derived(&self) -> bool {
+        matches!(
+            self,
+            Self::Real {
+                start: Start::Derived(_),
+                ..
+            }
+        )
+    }
+
     /// The start value; -1 for "the mission's own".
     pub fn start(&self) -> Value {
         match *self {

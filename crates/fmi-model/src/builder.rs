@@ -189,6 +189,12 @@ impl<'t, M, K: Kind> Row<'t, M, K> {
         self
     }
 
+    /// Read; follows from parameters at initialization, then fixed.
+    pub fn calculated_parameter(mut self) -> Self {
+        self.causality = Causality::CalculatedParameter;
+        self
+    }
+
     /// Set between steps. Needs a setter; starts at 0, false, "" or the first item unless told otherwise.
     pub fn input(mut self) -> Self {
         self.causality = Causality::Input;
@@ -303,7 +309,7 @@ impl<'t, M, K: Kind> Row<'t, M, K> {
 
     fn put(self, shape: Shape, read: Read<M, K::Value>, write: Option<Write<M, K::Value>>) {
         let variability = match self.causality {
-            Causality::Parameter => Variability::Fixed,
+            Causality::Parameter | Causality::CalculatedParameter => Variability::Fixed,
             _ if K::CONTINUOUS && !self.discrete => Variability::Continuous,
             _ => Variability::Discrete,
         };

@@ -9,7 +9,7 @@ pub(crate) fn check_settable<M>(entry: Entry<'_, M>, phase: Phase) -> Result<(),
     let settable = match entry.row.causality {
         Causality::Parameter => matches!(phase, Phase::Instantiated | Phase::Initialization),
         Causality::Input => true,
-        Causality::Output | Causality::Local => false,
+        Causality::CalculatedParameter | Causality::Output | Causality::Local => false,
     };
     if settable {
         return Ok(());

@@ -11,6 +11,8 @@ use crate::bounds::Bounds;
 pub enum Causality {
     /// Set before the first step, then fixed.
     Parameter,
+    /// Read by the host; follows from parameters at initialization, then fixed.
+    CalculatedParameter,
     /// Set by the host between steps.
     Input,
     /// Read by the host, meant for connections and result files.
@@ -24,6 +26,7 @@ impl Causality {
     pub fn name(self) -> &'static str {
         match self {
             Self::Parameter => "parameter",
+            Self::CalculatedParameter => "calculatedParameter",
             Self::Input => "input",
             Self::Output => "output",
             Self::Local => "local",

@@ -179,7 +179,7 @@ fn scalar_variable<M>(reference: u32, entry: Entry<'_, M>) -> Element {
     let initial = match row.causality {
         Causality::Parameter => "exact",
         Causality::Input => "", // must not be stated: an input always starts at its start value
-        Causality::Output | Causality::Local => "calculated",
+        Causality::CalculatedParameter | Causality::Output | Causality::Local => "calculated",
     };
     Element::new("ScalarVariable")
         .attribute("name", entry.name())
@@ -234,24 +234,27 @@ fn model_structure<M>(table: &Table<M>) -> Element {
         let known = |row: &Variable<M>| match row.causality {
             Causality::Parameter => true,
             Causality::Input => unknown.initial_inputs.contains(&row.name.as_str()),
-            Causality::Output | Causality::Local => false,
+            Causality::CalculatedParameter | Causality::Output | Causality::Local => false,
         };
         let knowns = (1_usize..).zip(table.entries()).filter(|(_, entry)| known(entry.row));
         knowns.map(|(index, _)| index.to_string()).collect::<Vec<_>>().join(" ")
     };
-    let unknowns = |dependencies: &dyn Fn(&Variable<M>) -> String| -> Vec<Element> {
+    let unknowns = |kinds: &[Causality], dependencies: &dyn Fn(&Variable<M>) -> String| -> Vec<Element> {
         let entries = (1_usize..).zip(table.entries());
-        let outputs = entries.filter(|(_, entry)| entry.row.causality == Causality::Output);
+        let of_kinds = entries.filter(|(_, entry)| kinds.contains(&entry.row.causality));
         let unknown = |(index, entry): (usize, Entry<'_, M>)| {
             Element::new("Unknown")
                 .attribute("index", index.to_string())
                 .attribute("dependencies", dependencies(entry.row))
         };
-        outputs.map(unknown).collect()
+        of_kinds.map(unknown).collect()
     };
     let sections = [
-        section("Outputs", unknowns(&|_| String::new())),
-        section("InitialUnknowns", unknowns(&at_initialization)),
+        section("Outputs", unknowns(&[Causality::Output], &|_| String::new())),
+        section(
+            "InitialUnknowns",
+            unknowns(&[Causality::Output, Causality::CalculatedParameter], &at_initialization),
+        ),
     ];
     Element::new("ModelStructure").children(sections.into_iter().flatten())
 }

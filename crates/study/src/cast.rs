@@ -141,10 +141,10 @@ impl Models {
         chosen
     }
 
-    /// Whether a setting is one of this filter's own, or of no filter in particular.
-    fn concerns(&self, assignment: &Assignment, choice: &FilterChoice) -> bool {
-        let owner = assignment.variable.split_once('.').map_or("", |(owner, _)| owner);
-        assignment.model != NAV || owner == choice.name || !self.has_filter(owner)
+    /// Whether a variable of fmu-nav is this filter's own, or of no filter in particular: its name has that of no other.
+    fn concerns(&self, variable: &str, choice: &FilterChoice) -> bool {
+        let mut parts = variable.split('.');
+        parts.all(|part| part == choice.name || !self.has_filter(part))
     }
 
     /// Whether fmu-nav has a filter of this name.
@@ -261,8 +261,12 @@ impl Models {
                     why: why.to_owned(),
                 });
             }
-            let concerned = assignments.iter().filter(|a| self.concerns(a, choice));
-            filters.push(starts.assign(concerned)?.named(&choice.label));
+            let concerned = assignments
+                .iter()
+                .filter(|a| a.model != NAV || self.concerns(&a.variable, choice));
+            let mut filter = starts.assign(concerned)?.named(&choice.label);
+            filter.calculated.retain(|name| self.concerns(name, choice));
+            filters.push(filter);
         }
         for model in &self.foreign {
             filters.push(

@@ -32,6 +32,8 @@ pub struct RunRow {
     pub nis: Option<f64>,
     /// The filter or the distance to the truth said so, of a run without a result before it ended.
     pub diverged: bool,
+    /// Parameters that the filter calculated, by contract name; of the first run alone.
+    pub calculated: Vec<(String, f64)>,
     /// Set when the run has no result; then it takes no part in the statistics.
     pub failure: Option<Failure>,
 }
@@ -206,6 +208,7 @@ impl RunRow {
             nees6: mean(scored().filter_map(Record::nees6)),
             nis: mean(scored().filter_map(Record::nis)),
             diverged: ending.says_diverged || until_the_end().any(|r| r.lost),
+            calculated: ending.calculated.clone(),
             failure: ending.failure.clone(),
         }
     }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fmi2_import::{Causality, Fmu, ModelDescription};
+use fmi2_import::{BaseType, Causality, Fmu, ModelDescription};
 use interface::annotation::{self, Filters};
 
 use crate::arguments::{FilterChoice, ForeignFilter, Mapping, PAPER};
@@ -76,6 +76,15 @@ impl Model {
             .iter()
             .filter(|v| v.causality == Causality::Input);
         inputs.any(|v| self.contract_name(&v.name).starts_with(OF_FILTERS))
+    }
+
+    /// Real parameters that it calculates at initialization, by contract name.
+    pub(crate) fn calculated(&self) -> Vec<String> {
+        let variables = self.description().variables.iter();
+        variables
+            .filter(|v| v.causality == Causality::CalculatedParameter && v.base_type() == BaseType::Real)
+            .map(|v| self.contract_name(&v.name).to_owned())
+            .collect()
     }
 
     /// What the numbers of its `status` mean: the items of the enumeration, or a plain Integer's order.

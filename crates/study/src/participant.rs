@@ -57,6 +57,8 @@ pub struct Participant {
     pub varied: Vec<Varied>,
     /// What the numbers of its `status` mean.
     pub statuses: StatusItems,
+    /// Real parameters that it calculates at initialization, by contract name: what its settings come to.
+    pub calculated: Vec<String>,
     /// Start values and variations as text, under the FMU's own names, for the record.
     pub record: Vec<(String, String)>,
 }

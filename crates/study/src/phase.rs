@@ -131,6 +131,7 @@ mod tests {
             aliases: Vec::new(),
             starts: starts.iter().map(|(n, v)| ((*n).to_owned(), Value::Real(*v))).collect(),
             varied: Vec::new(),
+            calculated: Vec::new(),
             statuses: StatusItems::default(),
             record: Vec::new(),
         }

@@ -173,6 +173,36 @@ impl TruthReader {
     }
 }
 
+/// Reads the parameters that a filter has calculated.
+pub(crate) struct CalculatedReader {
+    names: Vec<String>,
+    sample: Sample,
+    handles: Vec<Handle<f64>>,
+}
+
+impl CalculatedReader {
+    pub(crate) fn new(system: &System, slave: SlaveId, filter: &Participant) -> Result<Self, StudyError> {
+        let names = filter.calculated.clone();
+        let mut probe = system.probe(slave)?;
+        let handles = names.iter().map(|name| probe.real(name));
+        let handles = handles.collect::<Result<_, _>>()?;
+        Ok(Self {
+            names,
+            sample: probe.sample(),
+            handles,
+        })
+    }
+
+    /// By name; none of a filter that cannot be read.
+    pub(crate) fn values(mut self, context: &mut StepContext<'_>) -> Vec<(String, f64)> {
+        if context.read(&mut self.sample).is_err() {
+            return Vec::new();
+        }
+        let values = self.handles.iter().map(|handle| self.sample.get(*handle));
+        self.names.into_iter().zip(values).collect()
+    }
+}
+
 /// Which sample an estimate belongs to, in the filter's own words.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Tag {

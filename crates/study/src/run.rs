@@ -8,7 +8,7 @@ use cosim::{Causality, RunOptions, Scheme, SlaveId, StepContext, System, Value};
 use crate::error::{StudyError, chain};
 use crate::history::History;
 use crate::participant::Participant;
-use crate::readers::{EstimateReader, TruthReader, units_unsaid};
+use crate::readers::{CalculatedReader, EstimateReader, TruthReader, units_unsaid};
 use crate::samples::{Estimate, SAME_TIME, TruthSample};
 use crate::spec::Spec;
 use crate::stop::stop_asked;
@@ -31,6 +31,8 @@ pub struct Ending {
     pub failure: Option<Failure>,
     /// The filter's status said so.
     pub says_diverged: bool,
+    /// Parameters that it calculated, by contract name; of the first run of a study alone, and of a filter that came so far.
+    pub calculated: Vec<(String, f64)>,
 }
 
 /// Time one slave took over a run.
@@ -59,6 +61,7 @@ pub struct RunReport {
 struct Seat {
     id: SlaveId,
     reader: EstimateReader,
+    calculated: Option<CalculatedReader>,
     last: u32,
 }
 
@@ -114,7 +117,15 @@ fn couple(spec: &Spec, run: u32) -> Result<Coupled, StudyError> {
             });
         }
         let reader = EstimateReader::new(&system, id, filter, spec.world.frame)?;
-        Ok(Seat { id, reader, last: 0 })
+        let calculated = (run == 0)
+            .then(|| CalculatedReader::new(&system, id, filter))
+            .transpose()?;
+        Ok(Seat {
+            id,
+            reader,
+            calculated,
+            last: 0,
+        })
     });
     let seats = seats.collect();
     Ok(Coupled {
@@ -345,6 +356,9 @@ fn run_world(
             let Ok(seat) = seat else { continue };
             if ending.failure.is_some() || !context.is_active(seat.id) {
                 continue;
+            }
+            if let Some(reader) = seat.calculated.take() {
+                ending.calculated = reader.values(context);
             }
             let answered = answer(seat, context, &history, handed, ending, |t, e| observe(index, t, e));
             if let Err(message) = answered {

@@ -156,6 +156,7 @@ impl<'a> StartValues<'a> {
                 .map(|(name, value)| (self.model.contract_name(name).to_owned(), value.clone()))
                 .collect(),
             varied: Vec::new(),
+            calculated: self.model.calculated(),
             statuses: self.model.statuses(),
         }
     }

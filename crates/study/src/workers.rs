@@ -195,7 +195,7 @@ fn with_drivers(spec: &Spec) -> String {
 fn failed(spec: &Spec, run: u32, message: String) -> Part {
     let ending = Ending {
         failure: Some(Failure { time: None, message }),
-        says_diverged: false,
+        ..Ending::default()
     };
     Part {
         row: RunRow::new(run, &[], spec.first_scored(), &ending),

@@ -129,7 +129,12 @@ impl<'a> Report<'a> {
         })?;
         files.extend(folder.write_all(more)?);
         let wall = self.results.iter().map(|r| r.wall).sum();
-        let studies = self.studies.iter().map(|s| StudyFacts::new(plan, s)).collect();
+        let studies = self
+            .studies
+            .iter()
+            .zip(self.results)
+            .map(|(s, r)| StudyFacts::new(plan, s, &r.filters))
+            .collect();
         let mut manifest = Manifest::new(models, studies, plan.threads(), wall)?;
         manifest.calibration = Some(self.calibration.clone());
         if let Some(told) = study {

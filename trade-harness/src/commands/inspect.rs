@@ -1,6 +1,6 @@
 //! `inspect`: what an FMU is.
 
-use fmi2_import::{Causality, Fmu};
+use fmi2_import::Fmu;
 use serde_json::json;
 use study::filters_of;
 
@@ -9,6 +9,7 @@ use super::out::Out;
 use super::shared::Verdict;
 use crate::HarnessError;
 use crate::cli::InspectArgs;
+use crate::pack::GROUPS;
 
 pub(super) fn inspect(args: &InspectArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     let fmu = Fmu::open(&args.path)?;
@@ -73,13 +74,7 @@ pub(super) fn inspect(args: &InspectArgs, out: &mut Out<'_>) -> Result<Verdict, 
             "search of tune", s.variable, s.low, s.high
         ))?;
     }
-    for (title, causality) in [
-        ("Parameters", Causality::Parameter),
-        ("Calculated parameters", Causality::CalculatedParameter),
-        ("Inputs", Causality::Input),
-        ("Outputs", Causality::Output),
-        ("Local variables", Causality::Local),
-    ] {
+    for (title, causality) in GROUPS {
         let of_kind = || d.variables.iter().filter(|v| v.causality == causality);
         if of_kind().next().is_some() {
             out.say(&format!("\n{title}\n{}", variables(of_kind())))?;

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::{Duration, SystemTime};
 
 use serde::Serialize;
-use study::{Calibration, Model, Models, Participant, Plan, Study, scheme_name};
+use study::{Calibration, FilterResult, Model, Models, Participant, Plan, Study, scheme_name};
 
 use crate::HarnessError;
 use crate::digest::of_file;
@@ -86,6 +86,8 @@ pub struct StudyFacts {
     plan: Plan,
     /// The mission, every key of it.
     mission: interface::Mission,
+    /// What of it a filter is told that asks for the mission: the world's own values where it states no belief.
+    told: interface::Navigation,
     /// What a reader should know of it.
     notes: Vec<String>,
 }
@@ -94,13 +96,22 @@ pub struct StudyFacts {
 struct FilterFacts {
     filter: String,
     parameters: BTreeMap<String, String>,
+    /// What it calculated of them and of the mission; of one that came so far.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    calculated: BTreeMap<String, f64>,
 }
 
 impl StudyFacts {
     /// Facts from the definition of the study.
     ///
     /// * `plan`: what it was part of.
-    pub fn new(plan: &Plan, study: &Study) -> Self {
+    /// * `results`: of the filters that have run, in any order.
+    pub fn new(plan: &Plan, study: &Study, results: &[FilterResult]) -> Self {
+        let calculated = |label: &str| {
+            let result = results.iter().find(|result| result.label == label);
+            let first = result.and_then(|result| result.runs.first());
+            first.map(|run| run.calculated.iter().cloned().collect())
+        };
         let spec = &study.spec;
         let parameters = |p: &Participant| p.record.iter().cloned().collect();
         Self {
@@ -120,11 +131,13 @@ impl StudyFacts {
                 .map(|f| FilterFacts {
                     filter: f.label.clone(),
                     parameters: parameters(f),
+                    calculated: calculated(&f.label).unwrap_or_default(),
                 })
                 .collect(),
             drivers: spec.drivers.iter().map(|d| (d.label.clone(), parameters(d))).collect(),
             plan: plan.of_case(&study.case).resolved(spec),
             mission: spec.world.mission.clone(),
+            told: spec.world.mission.navigation(),
             notes: spec.world.notes.clone(),
         }
     }

@@ -82,7 +82,7 @@ impl Notebook {
         let (rows, timings) = measured(&study, &result, None)?;
         self.rows.extend(rows);
         self.timings.extend(timings);
-        self.studies.push(StudyFacts::new(&plan, &study));
+        self.studies.push(StudyFacts::new(&plan, &study, &result.filters));
         self.wall += result.wall;
         Ok(result)
     }

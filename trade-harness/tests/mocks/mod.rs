@@ -138,6 +138,7 @@ fn participant(label: &str, truth: bool, quirk: Quirk) -> Participant {
         aliases: Vec::new(),
         starts: Vec::new(),
         varied: Vec::new(),
+        calculated: Vec::new(),
         statuses: StatusItems::default(),
         record: Vec::new(),
     }

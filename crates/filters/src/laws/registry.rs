@@ -6,7 +6,6 @@ use crate::disturbance::Disturbance;
 use crate::dynamics::AccelerationModel;
 use crate::error::FilterError;
 use crate::state::TargetMatrix;
-use crate::tunable::{Kind, Start};
 use interface::Navigation;
 use nalgebra::{Vector3, Vector6};
 use serde::{Deserialize, Serialize};
@@ -72,23 +71,12 @@ pub fn entry(filter: usize) -> Result<&'static FilterEntry, FilterError> {
 /// # Errors
 /// [`FilterError::UnknownStart`], with what there is.
 pub fn check_names(navigation: &Navigation) -> Result<(), FilterError> {
-    let derived = |entry: &FilterEntry, name: &str| {
-        entry.tunables.iter().any(|t| {
-            t.name == name
-                && matches!(
-                    t.kind,
-                    Kind::Real {
-                        start: Start::Derived(_),
-                        ..
-                    }
-                )
-        })
-    };
+    let derived = |entry: &FilterEntry, name: &str| entry.tunables.iter().any(|t| t.name == name && t.kind.derived());
     for name in navigation.law.keys() {
         let (law, tunable) = name.split_once('.').unwrap_or((name, ""));
         if !FILTERS.iter().any(|entry| entry.name == law && derived(entry, tunable)) {
             let all = FILTERS.iter().flat_map(|entry| {
-                let own = entry.tunables.iter().filter(|t| derived(entry, t.name));
+                let own = entry.tunables.iter().filter(|t| t.kind.derived());
                 own.map(|t| format!("{}.{}", entry.name, t.name))
             });
             return Err(FilterError::UnknownStart {
