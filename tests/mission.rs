@@ -211,6 +211,56 @@ fn an_fmu_packed_with_a_mission_runs_it_and_is_another_fmu() {
     );
 }
 
+/// Two gravity fields in files: the world's, and the one that a filter is told of.
+#[test]
+fn the_coefficient_files_of_a_mission_are_part_of_what_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let field = |name: &str, j2: &str| {
+        let text = format!("mu_m3_s2 = 3.986e14\nradius_m = 6.378e6\ndegree,order,c,s\n2,0,{j2},0\n");
+        std::fs::write(at(name), text).unwrap();
+    };
+    field("world.csv", "-4.84e-4");
+    field("told.csv", "-4.8e-4");
+    let leo = std::fs::read_to_string(root().join("missions/leo_venting.toml")).unwrap();
+    let gravity =
+        |file: &str| format!("gravity = {{ model = \"harmonics\", file = \"{file}\", degree = 2, order = 0 }}");
+    let mut lines: Vec<String> = leo.lines().map(str::to_owned).collect();
+    let mut files = ["world.csv", "told.csv"].into_iter();
+    for line in lines.iter_mut().filter(|line| line.starts_with("gravity = ")) {
+        *line = gravity(files.next().unwrap());
+    }
+    assert_eq!(files.next(), None, "a gravity of the world and one of the filters");
+    let mission = at("fields.toml");
+    let text_of = lines
+        .join("\n")
+        .replace("[environment]", "[environment]\nrotation = { rate_deg_s = 0.0 }");
+    std::fs::write(&mission, text_of).unwrap();
+
+    let study = |name: &str| -> serde_json::Value {
+        let out = at(name);
+        let what = ["compare", "--filters", "snc", "--runs", "1", "--duration", "400"];
+        harness_ok(&[&what[..], &["--mission", text(&mission), "--out", text(&out)]].concat());
+        serde_json::from_slice(&std::fs::read(out.join("manifest.json")).unwrap()).unwrap()
+    };
+    let guid = |name: &str| {
+        trade_harness::pack::pack(root(), &at(name), Some(&mission), true).unwrap();
+        let packed = fmi2_import::Fmu::open(at(name).join("fmu-nav.fmu")).unwrap();
+        packed.description().guid.clone()
+    };
+    let (first, packed) = (study("first"), guid("packed"));
+    for file in ["fields.toml", "world.csv", "told.csv"] {
+        let digest = trade_harness::digest::of_file(&at(file)).unwrap();
+        assert_eq!(first["inputs"][text(&at(file))], digest, "{file}");
+    }
+    assert_eq!(guid("again"), packed);
+    field("told.csv", "-4.84e-4");
+    assert_ne!(study("second")["identity"], first["identity"]);
+    assert_ne!(guid("other"), packed);
+    let message = refused(&["rerun", text(&at("first"))]);
+    assert!(message.contains("told.csv is another file"), "{message}");
+}
+
 #[test]
 fn both_fmus_refuse_a_mission_with_the_same_words_in_their_logs() {
     use fmi2_import::{Experiment, Fmu};

@@ -79,6 +79,15 @@ fn a_varied_run_is_replayed_with_its_own_values() {
     }
     assert_ne!(digest("fmu-truth"), digest("fmu-nav"));
 
+    // What is left to the mission stands there as the filter took it.
+    let mission = std::fs::read_to_string(common::root().join("missions/leo_venting.toml")).unwrap();
+    let stated = mission.lines().find_map(|line| line.strip_prefix("\"fixed_q.s\" = "));
+    let stated: f64 = stated.unwrap().parse().unwrap();
+    let filters = facts["studies"][0]["filters"].as_array().unwrap();
+    let fixed = filters.iter().find(|filter| filter["filter"] == "fixed_q").unwrap();
+    assert_eq!(fixed["calculated"]["resolved.fixed_q.s"], stated);
+    assert_eq!(facts["studies"][0]["told"]["law"]["fixed_q.s"], stated);
+
     let runs = read_csv(&folder.path().join("one/runs.csv"));
     let row = runs
         .iter()

@@ -14,6 +14,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::HarnessError;
+use crate::digest::of_bytes;
 use crate::output::write_whole;
 
 /// Our FMUs: crate and model name, and the identifier that library and C functions go by.
@@ -123,13 +124,11 @@ fn resources(mission: Option<&Path>) -> Result<(Option<World>, Files), HarnessEr
     // What is wrong with it is told here rather than by the FMU.
     let world = World::of(document.mission().map_err(told)?)?;
     for (key, field) in document.files().map_err(told)? {
-        let name = field
-            .file_name()
-            .map(|n| n.to_string_lossy().into_owned())
-            .unwrap_or_default();
-        // The world's field and the filter's may be two files of one name.
-        let name = format!("fields/{}/{name}", key.split('.').next().unwrap_or_default());
-        files.insert(format!("resources/{name}"), read(&field)?);
+        let name = field.file_name().map(|n| n.to_string_lossy().into_owned());
+        let contents = read(&field)?;
+        // The digest tells two files of one name apart, and takes their contents into the identifier, which is made of this text.
+        let name = format!("fields/{}/{}", of_bytes(&contents), name.unwrap_or_default());
+        files.insert(format!("resources/{name}"), contents);
         document.set(key, &format!("{name:?}")).map_err(told)?;
     }
     files.insert(packed_mission(), document.text().as_bytes().to_vec());

@@ -3,6 +3,7 @@
 //! While a study is under way its folder holds `.unfinished/`: a lock, the identity of the study and the journals of its runs.
 //! A study that is complete has `manifest.json`, which holds the identity, and no `.unfinished/`.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
@@ -184,6 +185,8 @@ struct Facts<'a> {
 #[derive(Serialize)]
 struct StudyIdentity<'a> {
     mission: &'a interface::Mission,
+    /// SHA-256 of each file that the mission reads, by its key.
+    mission_files: BTreeMap<&'a str, String>,
     case: &'a str,
     runs: u32,
     seed: i32,
@@ -206,7 +209,7 @@ struct PartIdentity<'a> {
 /// SHA-256 of what tells the studies of one command from any others: missions, parameters, FMUs, seeds, lengths.
 ///
 /// # Errors
-/// An FMU that cannot be read any more.
+/// An FMU or a file of a mission that cannot be read any more.
 pub fn identity(studies: &[Study], models: &Models) -> Result<String, HarnessError> {
     let fmus = models
         .all()
@@ -222,8 +225,11 @@ pub fn identity(studies: &[Study], models: &Models) -> Result<String, HarnessErr
                 parameters: part.record.iter().filter(|(name, _)| name != "mission_file").collect(),
             }
         });
-        StudyIdentity {
+        let files = spec.world.mission.files().into_iter();
+        let files = files.map(|(key, path)| Ok((key, of_file(&path)?)));
+        Ok(StudyIdentity {
             mission: &spec.world.mission,
+            mission_files: files.collect::<Result<_, HarnessError>>()?,
             case: &study.case,
             runs: study.runs,
             seed: spec.seed,
@@ -234,12 +240,12 @@ pub fn identity(studies: &[Study], models: &Models) -> Result<String, HarnessErr
             scheme: scheme_name(spec.scheme),
             phases: spec.phases.rules(),
             parts: parts.collect(),
-        }
+        })
     });
     let facts = Facts {
         version: env!("CARGO_PKG_VERSION"),
         fmus: fmus.collect::<Result<_, HarnessError>>()?,
-        studies: studies.collect(),
+        studies: studies.collect::<Result<_, HarnessError>>()?,
     };
     Ok(of_bytes(&serde_json::to_vec(&facts)?))
 }

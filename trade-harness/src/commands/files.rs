@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use interface::mission::Gravity;
 use study::{Calibration, Models, PhaseSummary, Plan, Requirement, Study, StudyResult, Summary, Workers, calibrate};
 
 use crate::HarnessError;
@@ -157,16 +156,15 @@ pub(super) struct Told<'a> {
 
 /// SHA-256 of the files that a study reads beside FMUs.
 fn inputs(plan: &Plan, studies: &[Study]) -> Result<BTreeMap<String, String>, HarnessError> {
-    let coefficients = studies.iter().filter_map(|study| {
-        let mission = &study.spec.world.mission;
-        match &mission.environment.gravity {
-            Gravity::Harmonics(field) => field.file.as_ref().map(|file| mission.locate(file)),
-            _ => None,
-        }
-    });
+    let read = |study: &Study| study.spec.world.mission.files().into_iter().map(|(_, path)| path);
     let digest = |path: PathBuf| Ok((path.display().to_string(), of_file(&path)?));
     // Tuned sets and mappings stand in the plan itself.
-    plan.missions.iter().cloned().chain(coefficients).map(digest).collect()
+    plan.missions
+        .iter()
+        .cloned()
+        .chain(studies.iter().flat_map(read))
+        .map(digest)
+        .collect()
 }
 
 /// Does something with every item, on some threads.

@@ -167,6 +167,19 @@ impl Mission {
         })
     }
 
+    /// Files that the mission reads: the key of each, and its path from here.
+    pub fn files(&self) -> Vec<(&'static str, PathBuf)> {
+        let fields = [
+            ("environment.gravity.file", Some(&self.environment.gravity)),
+            ("navigation.gravity.file", self.navigation.gravity.as_ref()),
+        ];
+        let file = |(key, gravity): (_, Option<&Gravity>)| match gravity {
+            Some(Gravity::Harmonics(field)) => Some((key, self.locate(field.file.as_ref()?))),
+            _ => None,
+        };
+        fields.into_iter().filter_map(file).collect()
+    }
+
     /// A path of the mission file: as it is when absolute, else from the folder of the file.
     pub fn locate(&self, path: &Path) -> PathBuf {
         self.folder.join(path)
