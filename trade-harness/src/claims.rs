@@ -26,14 +26,18 @@ pub struct Claim {
 pub struct Verdict<'a> {
     /// The claim.
     pub claim: &'a Claim,
-    /// The number; `None` where the study has none, which misses the bound.
+    /// The number; `None` where the study has none.
     pub value: Option<f64>,
+    /// Runs with a result.
+    pub runs: usize,
 }
 
 impl Verdict<'_> {
-    /// Whether the number is within the bound.
-    pub fn holds(&self) -> bool {
-        self.claim.bound.holds(self.value)
+    /// Whether the number is within the bound; open where the runs are too few for such a number. With no run at all the
+    /// claim is missed.
+    pub fn holds(&self) -> Option<bool> {
+        let open = self.value.is_none() && self.runs > 0;
+        (!open).then(|| self.claim.bound.holds(self.value))
     }
 }
 
@@ -54,6 +58,7 @@ pub fn verdicts(world: &str, rows: &[Summary]) -> Vec<Verdict<'static>> {
         Some(Verdict {
             claim,
             value: value(row, claim.column),
+            runs: usize::try_from(row.runs).unwrap_or_default().saturating_sub(row.failed),
         })
     };
     of(world).iter().filter_map(judge).collect()
@@ -64,8 +69,17 @@ pub fn render(verdicts: &[Verdict<'_>]) -> String {
     let mut text = String::new();
     for verdict in verdicts {
         let claim = verdict.claim;
-        let word = if verdict.holds() { "holds " } else { "MISSED" };
-        let value = number(verdict.value);
+        let word = match verdict.holds() {
+            Some(true) => "holds ",
+            Some(false) => "MISSED",
+            None => "open  ",
+        };
+        let value = if verdict.holds().is_none() {
+            let plural = if verdict.runs == 1 { "" } else { "s" };
+            format!("not known from {} run{plural}", verdict.runs)
+        } else {
+            number(verdict.value)
+        };
         if !text.is_empty() {
             text.push('\n');
         }
@@ -172,24 +186,18 @@ mod tests {
             bound: Bound::between(0.0, 0.0),
             text: "stays",
         };
+        let verdict = |claim, value, runs| Verdict { claim, value, runs };
         let text = render(&[
-            Verdict {
-                claim: &near,
-                value: Some(1.05),
-            },
-            Verdict {
-                claim: &above,
-                value: Some(1.1),
-            },
-            Verdict {
-                claim: &none,
-                value: None,
-            },
+            verdict(&near, Some(1.05), 9),
+            verdict(&above, Some(1.1), 9),
+            verdict(&near, None, 2),
+            verdict(&none, None, 0),
         ]);
         assert_eq!(
             text,
             "holds   milton ratio_pos = 1.050 (bound: 0.95 to 1.2): overlay\n\
              MISSED  milton ratio_vel = 1.100 (bound: at least 1.2): modest\n\
+             open    milton ratio_pos = not known from 2 runs (bound: 0.95 to 1.2): overlay\n\
              MISSED  milton diverged = - (bound: exactly 0): stays"
         );
     }

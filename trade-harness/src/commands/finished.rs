@@ -191,7 +191,7 @@ fn print(
                 "filter": v.claim.filter, "column": v.claim.column, "value": v.value, "holds": v.holds(), "text": v.claim.text,
             })).collect::<Vec<_>>(),
         }));
-        missed |= verdicts.iter().any(|v| !v.holds());
+        missed |= verdicts.iter().any(|v| v.holds() == Some(false));
         out.say("")?;
     }
     if !report.verdicts.is_empty() {
