@@ -13,6 +13,7 @@ mod events;
 mod figures;
 mod folder;
 mod kept;
+mod learning;
 mod matrix;
 mod number;
 mod pack;

@@ -67,6 +67,8 @@ struct Section {
     worst: Vec<Worst>,
     notes: Vec<String>,
     every: usize,
+    /// Epochs of which each point of the NIS is a mean.
+    nis_epochs: usize,
     has_curves: bool,
     has_events: bool,
     drawn_events: bool,
@@ -202,6 +204,12 @@ fn section(folder: &Folder, study: &StudyFacts, figures: &Figures) -> Result<Sec
             .collect(),
         notes: study.notes.clone(),
         every: every.unwrap_or(1),
+        nis_epochs: figures
+            .filters
+            .iter()
+            .filter_map(|f| Some(f.series.as_ref()?.nis.epochs))
+            .max()
+            .unwrap_or(1),
         has_curves: every.is_some(),
         has_events: !figures.events.is_empty(),
         drawn_events: figures.events.iter().any(|e| e.drawn),

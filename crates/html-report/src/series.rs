@@ -6,6 +6,9 @@ use crate::folder::Epochs;
 use crate::number::significant;
 use crate::pack::pack;
 
+/// Most means over time: innovations are independent from epoch to epoch, so that of single epochs a figure shows a bar alone.
+const MEANS: usize = 120;
+
 /// Significant digits of what a figure draws.
 const DIGITS: usize = 4;
 
@@ -20,13 +23,23 @@ pub(crate) struct Series {
     pub quantities: Vec<QuantitySeries>,
     #[serde(serialize_with = "pack")]
     pub nees: Vec<Option<f64>>,
-    #[serde(serialize_with = "pack")]
-    pub nis: Vec<Option<f64>>,
+    pub nis: Means,
     /// Mean over the runs of the root of the jerk density in axes N, m/s^2.5; `None` where the filter tells none.
     pub jerk_root: Option<[Column; 3]>,
     /// Degrees of freedom of the NIS, where they are the same at all epochs.
     #[serde(skip)]
     pub residual_rows: Option<usize>,
+}
+
+/// Means over so many epochs each.
+#[derive(Debug, Serialize)]
+pub(crate) struct Means {
+    /// Epochs with a value that each is a mean of.
+    pub epochs: usize,
+    /// Mean of their times, s.
+    pub t: Vec<f64>,
+    #[serde(serialize_with = "pack")]
+    pub mean: Vec<Option<f64>>,
 }
 
 #[derive(Debug, Serialize)]
@@ -101,10 +114,26 @@ pub(crate) fn series(epochs: &Epochs, points: usize) -> Option<Series> {
         t: thinned_time(&time, every),
         quantities: quantities.collect(),
         nees: column("nees"),
-        nis: column("nis"),
+        nis: means(&time, epochs.column("nis").unwrap_or_default()),
         jerk_root: told.then_some(jerk_root),
         residual_rows: residual_rows(epochs),
     })
+}
+
+/// Means over equally many epochs that have a value; epochs at the end that are too few for another are left out.
+fn means(time: &[f64], column: &[Option<f64>]) -> Means {
+    let there = time.iter().zip(column).filter_map(|(t, v)| Some((*t, (*v)?)));
+    let there: Vec<(f64, f64)> = there.collect();
+    let epochs = there.len().div_ceil(MEANS).max(1);
+    let mean = |part: &[(f64, f64)], of: fn(&(f64, f64)) -> f64| part.iter().map(of).sum::<f64>() / epochs as f64;
+    Means {
+        epochs,
+        t: there.chunks_exact(epochs).map(|part| mean(part, |p| p.0)).collect(),
+        mean: there
+            .chunks_exact(epochs)
+            .map(|part| Some(significant(mean(part, |p| p.1), DIGITS)))
+            .collect(),
+    }
 }
 
 /// Rows of the residual at the epochs that have a NIS; `None` when they are not always the same number.
@@ -164,6 +193,18 @@ fn thinned_time(time: &[f64], every: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn means_are_of_as_many_epochs_each() {
+        let time: Vec<f64> = (0..300).map(f64::from).collect();
+        // Every third epoch has none.
+        let column: Vec<Option<f64>> = (0..300).map(|i| (i % 3 > 0).then(|| f64::from(i % 3))).collect();
+        let found = means(&time, &column);
+        assert_eq!((found.epochs, found.t.len()), (2, 100));
+        assert!(found.mean.iter().all(|m| *m == Some(1.5)));
+        assert_eq!(found.t[..2], [1.5, 4.5]);
+        assert!(means(&time, &[]).t.is_empty());
+    }
 
     #[test]
     fn extremes_survive_in_their_order() {
