@@ -74,12 +74,6 @@ impl Axis {
             label: String::new(),
         }
     }
-
-    /// The text at a place.
-    pub fn text(&self, at: f64) -> String {
-        let here = self.places.iter().find(|(place, _)| place.total_cmp(&at).is_eq());
-        here.map(|(_, text)| text.clone()).unwrap_or_default()
-    }
 }
 
 impl Ranged for Axis {

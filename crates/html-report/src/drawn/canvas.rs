@@ -134,6 +134,56 @@ fn clipped(points: &[(f64, f64)], y: &Range<f64>) -> Vec<Vec<(f64, f64)>> {
     found
 }
 
+/// How a text is written.
+#[derive(Clone, Copy)]
+struct Script {
+    horizontal: HPos,
+    bold: bool,
+    /// From below to above.
+    upward: bool,
+    colour: RGBColor,
+}
+
+impl Default for Script {
+    fn default() -> Self {
+        Self {
+            horizontal: HPos::Left,
+            bold: false,
+            upward: false,
+            colour: INK,
+        }
+    }
+}
+
+impl From<HPos> for Script {
+    fn from(horizontal: HPos) -> Self {
+        Self {
+            horizontal,
+            ..Self::default()
+        }
+    }
+}
+
+/// A text in pieces, each raised or not; raised letters as those that they are raised from.
+fn pieces(text: &str) -> Vec<(String, bool)> {
+    let letters = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻".chars().zip("0123456789−".chars());
+    let letters: Vec<(char, char)> = letters.collect();
+    let mut found: Vec<(String, bool)> = Vec::new();
+    for c in text.chars() {
+        let (letter, raised) = match letters.iter().find(|(raised, _)| *raised == c) {
+            Some((_, plain)) => (*plain, true),
+            // Between raised digits it is their decimal point.
+            None if c == '·' && found.last().is_some_and(|(_, raised)| *raised) => ('.', true),
+            None => (c, false),
+        };
+        match found.last_mut().filter(|last| last.1 == raised) {
+            Some(last) => last.0.push(letter),
+            None => found.push((letter.to_string(), raised)),
+        }
+    }
+    found
+}
+
 struct Canvas<B: DrawingBackend> {
     root: DrawingArea<B, Shift>,
     /// Pixels of a unit of length.
@@ -171,11 +221,6 @@ where
         (length * f64::from(self.scale)).round().max(1.0) as u32
     }
 
-    fn font(&self, bold: bool) -> FontDesc<'static> {
-        let style = if bold { FontStyle::Bold } else { FontStyle::Normal };
-        FontDesc::new(FontFamily::SansSerif, f64::from(12 * self.scale), style)
-    }
-
     /// A text at a place in units, in the middle of its height.
     fn text(
         &self,
@@ -185,9 +230,78 @@ where
         horizontal: HPos,
         bold: bool,
     ) -> Result<(), ReportError> {
-        let style = TextStyle::from(self.font(bold)).pos(Pos::new(horizontal, VPos::Center));
-        let at = (self.units(x), self.units(y));
-        area.draw(&Text::new(text, at, style)).map_err(failed)
+        let script = Script {
+            horizontal,
+            bold,
+            ..Script::default()
+        };
+        self.write(area, text, (self.units(x), self.units(y)), &script)
+    }
+
+    /// A text at a place in pixels. In pixels what is raised is drawn as smaller letters, since fonts lack some of those.
+    fn write(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        text: &str,
+        at: (i32, i32),
+        script: &Script,
+    ) -> Result<(), ReportError> {
+        let style = |raised: bool| {
+            let weight = if script.bold {
+                FontStyle::Bold
+            } else {
+                FontStyle::Normal
+            };
+            let size = f64::from(12 * self.scale) * if raised { 0.72 } else { 1.0 };
+            TextStyle::from(FontDesc::new(FontFamily::SansSerif, size, weight)).color(&script.colour)
+        };
+        let turned = |raised: bool, horizontal| {
+            let turn = if script.upward {
+                FontTransform::Rotate270
+            } else {
+                FontTransform::None
+            };
+            style(raised).transform(turn).pos(Pos::new(horizontal, VPos::Center))
+        };
+        let pieces = if self.scale > 1 {
+            pieces(text)
+        } else {
+            vec![(text.to_owned(), false)]
+        };
+        // In pixels the middle is that of the font's line, below that of its letters.
+        let sink = if self.scale > 1 { self.units(1) } else { 0 };
+        let at = if script.upward {
+            (at.0 + sink, at.1)
+        } else {
+            (at.0, at.1 + sink)
+        };
+        if let [(text, false)] = &pieces[..] {
+            let style = turned(false, script.horizontal);
+            return area.draw(&Text::new(text.as_str(), at, style)).map_err(failed);
+        }
+        let length = |(text, raised): &(String, bool)| {
+            let size = area.estimate_text_size(text, &style(*raised));
+            size.map(|(width, _)| width as i32)
+        };
+        let lengths: Vec<i32> = pieces.iter().map(length).collect::<Result<_, _>>().map_err(failed)?;
+        let all: i32 = lengths.iter().sum();
+        let mut along = match script.horizontal {
+            HPos::Left => 0,
+            HPos::Center => -all / 2,
+            HPos::Right => -all,
+        };
+        for ((text, raised), length) in pieces.iter().zip(lengths) {
+            let up = if *raised { 4 * self.units(1) } else { 0 };
+            let place = if script.upward {
+                (at.0 - up, at.1 - along)
+            } else {
+                (at.0 + along, at.1 - up)
+            };
+            let style = turned(*raised, HPos::Left);
+            area.draw(&Text::new(text.as_str(), place, style)).map_err(failed)?;
+            along += length;
+        }
+        Ok(())
     }
 
     fn key(&self, strip: &DrawingArea<B, Shift>, key: &Key, (x, y): (u32, u32)) -> Result<(), ReportError> {
@@ -239,28 +353,39 @@ where
             .build_cartesian_2d(panel.x.clone(), panel.y.clone())
             .map_err(failed)?;
         let line = if panel.table { TRANSPARENT } else { INK.to_rgba() };
-        let name = |axis: &Axis| {
-            let axis = axis.clone();
-            move |v: &f64| axis.text(*v)
-        };
-        let (x_name, y_name) = (name(&panel.x), name(&panel.y));
         let mut mesh = chart.configure_mesh();
         mesh.light_line_style(TRANSPARENT)
             .bold_line_style(GRID.stroke_width(self.scale))
             .axis_style(line.stroke_width(self.scale))
             .set_all_tick_mark_size(self.units(if panel.table { 0 } else { 4 }))
-            .x_desc(panel.x.label.as_str())
-            .y_desc(panel.y.label.as_str())
-            .x_label_formatter(&x_name)
-            .y_label_formatter(&y_name)
-            .label_style(self.font(false))
-            .axis_desc_style(self.font(false));
+            .x_label_formatter(&|_| String::new())
+            .y_label_formatter(&|_| String::new());
         if panel.table {
             mesh.disable_mesh();
         } else if panel.y.label.is_empty() {
             mesh.disable_y_mesh();
         }
         mesh.draw().map_err(failed)?;
+        let right = Script::from(HPos::Right);
+        for (at, text) in &panel.y.places {
+            let (x, y) = chart.backend_coord(&(panel.x.range.start, *at));
+            self.write(&self.root, text, (x - self.units(8), y), &right)?;
+        }
+        let center = Script::from(HPos::Center);
+        for (at, text) in &panel.x.places {
+            let (x, y) = match panel.table {
+                true => chart.backend_coord(&(*at, panel.y.range.end)),
+                false => chart.backend_coord(&(*at, panel.y.range.start)),
+            };
+            let below = if panel.table { -self.units(10) } else { self.units(14) };
+            self.write(&self.root, text, (x, y + below), &center)?;
+        }
+        let middle = |range: &Range<f64>| 0.5 * (range.start + range.end);
+        let (x, y) = chart.backend_coord(&(middle(&panel.x.range), middle(&panel.y.range)));
+        let (across, down) = (area.get_pixel_range().0, area.get_pixel_range().1);
+        self.write(&self.root, &panel.x.label, (x, down.end - self.units(12)), &center)?;
+        let upward = Script { upward: true, ..center };
+        self.write(&self.root, &panel.y.label, (across.start + self.units(12), y), &upward)?;
         let areas = panel.areas.iter();
         let areas = areas.map(|a| Rectangle::new([(a.x.start, a.y.start), (a.x.end, a.y.end)], a.colour.filled()));
         chart.draw_series(areas).map_err(failed)?;
@@ -281,17 +406,15 @@ where
             }
         }
         for label in &panel.texts {
-            let (horizontal, colour) = if label.beside {
-                (HPos::Left, SOFT)
-            } else {
-                (HPos::Center, INK)
+            let (x, y) = chart.backend_coord(&label.at);
+            let script = Script {
+                horizontal: if label.beside { HPos::Left } else { HPos::Center },
+                colour: if label.beside { SOFT } else { INK },
+                bold: label.bold,
+                upward: false,
             };
-            let style = TextStyle::from(self.font(label.bold))
-                .color(&colour)
-                .pos(Pos::new(horizontal, VPos::Center));
             let dx = if label.beside { self.units(12) } else { 0 };
-            let text = EmptyElement::at(label.at) + Text::new(label.text.clone(), (dx, 0), style);
-            chart.draw_series([text]).map_err(failed)?;
+            self.write(&self.root, &label.text, (x + dx, y), &script)?;
         }
         Ok(())
     }
@@ -323,6 +446,22 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn raised_letters_stand_apart() {
+        let piece = |text: &str, raised| (text.to_owned(), raised);
+        assert_eq!(
+            pieces("q [10⁻⁶ m/s²·⁵]"),
+            [
+                piece("q [10", false),
+                piece("−6", true),
+                piece(" m/s", false),
+                piece("2.5", true),
+                piece("]", false)
+            ]
+        );
+        assert!(pieces("").is_empty());
+    }
 
     #[test]
     fn a_curve_is_cut_where_it_leaves() {

@@ -15,7 +15,7 @@ use crate::search::{Search, Try};
 
 /// Room for names on the left.
 fn room<'a>(names: impl Iterator<Item = &'a str>) -> u32 {
-    30 + 7 * names.map(|name| name.chars().count()).max().unwrap_or(0) as u32
+    24 + 7 * names.map(|name| name.chars().count()).max().unwrap_or(0) as u32
 }
 
 fn signed(value: Option<f64>) -> String {
@@ -175,11 +175,18 @@ pub(super) fn search(search: &Search) -> Sheet {
     let y = range(found().map(|(_, error)| error.log10()));
     let [objective, unit] = &search.objective;
     let given = search.given.and_then(|index| search.tries.get(index)?.error);
+    // Four stand two by two.
+    let across = match search.parameters.len() {
+        0 | 1 => 1,
+        2 | 4 => 2,
+        _ => 3,
+    };
+    let width = [600, 450, 300][across - 1];
     let panels = search.parameters.iter().enumerate().map(|(i, parameter)| {
         let (low, high) = (parameter.low.log10(), parameter.high.log10());
         let twentieth = 0.05 * (high - low);
         let room = 0.6 * twentieth;
-        let x = Axis::powers(low - room..high + room, &parameter.name, "", 7.0);
+        let x = Axis::powers(low - room..high + room, &parameter.name, "", f64::from(width) / 60.0);
         let mut panel = Panel::new(x, Axis::powers(y.clone(), &format!("{objective} RMSE"), unit, 12.0));
         panel.areas = [low..low + twentieth, high - twentieth..high]
             .map(|x| Area {
@@ -210,14 +217,13 @@ pub(super) fn search(search: &Search) -> Sheet {
         panel.dots = found().filter_map(dot).collect();
         panel
     });
-    let across = search.parameters.len().clamp(1, 3);
     let marked = |name: &str, colour: plotters::style::RGBColor, mark| Key {
         name: name.to_owned(),
         colour: colour.to_rgba(),
         mark,
     };
     Sheet {
-        panel: ([700, 450, 400][across - 1], 300),
+        panel: (width, 270),
         across,
         name: search.filter.clone(),
         keys: vec![
@@ -235,7 +241,7 @@ const EDGE: (&str, plotters::style::RGBColor) = ("edges of the search", ORANGE);
 
 /// True path of run 0, in two planes, and where two bodies pull the orbit, too.
 pub(super) fn path(path: &Path, figures: &Figures) -> Sheet {
-    let size = (550, 420);
+    let size = (450, 380);
     let about: Vec<Vec<Option<f64>>> = match path.body {
         Some((_, center)) => {
             let from_body = |(list, c): (&Vec<Option<f64>>, f64)| list.iter().map(|v| v.map(|v| v - c)).collect();

@@ -12,7 +12,7 @@ use crate::series::{AxisSeries, QuantitySeries, Series};
 
 /// Numbers that a time axis of so many units has room for.
 fn times(width: u32) -> f64 {
-    (f64::from(width - LEFT - RIGHT) / 65.0).clamp(3.0, 10.0)
+    (f64::from(width - LEFT - RIGHT) / 60.0).clamp(3.0, 10.0)
 }
 
 fn time(figures: &Figures, width: u32) -> Axis {
@@ -21,7 +21,7 @@ fn time(figures: &Figures, width: u32) -> Axis {
 
 /// Errors of a filter by quantity and axis.
 pub(super) fn errors(figures: &Figures, filter: &FilterFigures, series: &Series) -> Sheet {
-    let panel = (400, 250);
+    let panel = (300, 205);
     let mut keys = vec![
         Key::line("mean error", INK, None),
         Key::line("3σ of the errors", BLUE, None),
@@ -55,7 +55,7 @@ fn error(
     let curve = |values: &[Option<f64>], factor, colour, dash| Line {
         points: points(&series.t, values, factor),
         colour,
-        width: 1.1,
+        width: 0.9,
         dash,
     };
     let dashes = Some((6, 3));
@@ -79,7 +79,7 @@ fn error(
     });
     let name = format!("{}, {}", quantity.name, axis.axis);
     let mut panel =
-        Panel::new(time(figures, width), Axis::linear(y, &name, quantity.unit, 6.0)).during(&figures.events);
+        Panel::new(time(figures, width), Axis::linear(y, &name, quantity.unit, 5.0)).during(&figures.events);
     panel.lines = runs.chain(lines).collect();
     panel
 }
@@ -95,7 +95,7 @@ fn of_filters<'f>(
         Some(Line {
             points: logarithms(t, values),
             colour: colour(index),
-            width: 1.1,
+            width: 0.9,
             dash: dash(index),
         })
     });
@@ -104,7 +104,7 @@ fn of_filters<'f>(
 
 /// NEES and NIS of every filter.
 pub(super) fn consistency(figures: &Figures) -> Sheet {
-    let panel = (1000, 290);
+    let panel = (900, 260);
     let nees = of_filters(figures, |f| f.series.as_ref().map(|s| (&s.t[..], &s.nees[..])));
     let nis = of_filters(figures, |f| f.series.as_ref().map(|s| (&s.nis.t[..], &s.nis.mean[..])));
     let bounds = [
@@ -142,7 +142,7 @@ pub(super) fn consistency(figures: &Figures) -> Sheet {
 
 /// Root of the jerk density of every filter that tells it.
 pub(super) fn process_noise(figures: &Figures) -> Sheet {
-    let panel = (400, 330);
+    let panel = (300, 270);
     let panels = ["x", "y", "z"].into_iter().enumerate().map(|(axis, name)| {
         let lines = of_filters(figures, |f| {
             let series = f.series.as_ref()?;
@@ -185,7 +185,7 @@ pub(super) fn learning(learning: &Learning) -> Sheet {
         panel
     });
     Sheet {
-        panel: (400, 320),
+        panel: (300, 280),
         across: learning.axes.len().max(1),
         name: String::new(),
         keys: kinds.map(|(name, colour)| Key::line(name, colour, None)).into(),

@@ -9,8 +9,8 @@ use crate::events::Event;
 use crate::figures::Figures;
 
 /// Room around the axes of a panel.
-pub(super) const LEFT: u32 = 70;
-pub(super) const RIGHT: u32 = 16;
+pub(super) const LEFT: u32 = 64;
+pub(super) const RIGHT: u32 = 14;
 pub(super) const TOP: u32 = 10;
 pub(super) const BOTTOM: u32 = 44;
 /// Room of a panel's title.
