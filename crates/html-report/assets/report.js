@@ -100,8 +100,8 @@
   const tag = (name, attributes, inner = "") =>
     `<${name}${Object.entries(attributes).map(([k, v]) => ` ${k}="${escaped(v)}"`).join("")}>${inner}</${name}>`;
   const label = (x, y, text, more = {}) => tag("text", { x: x.toFixed(1), y: y.toFixed(1), fill: css("--ink"), ...more }, escaped(text));
-  const picture = (width, height, inner) =>
-    tag("svg", { xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${width} ${height}`, width, height, role: "img",
+  const picture = (width, height, inner, more = {}) =>
+    tag("svg", { xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${width} ${height}`, width, height, role: "img", ...more,
       "font-family": "Helvetica Neue, Helvetica, Arial, Liberation Sans, sans-serif", "font-size": 12 }, inner);
   const ticks = (low, high, count) => {
     const raw = (high - low) / count;
@@ -194,7 +194,10 @@
     return low <= high ? [low, high] : null;
   };
   const padded = ([low, high], log) => {
-    if (log) return [low / 1.3, high * 1.3];
+    if (log) {
+      const room = (high / low) ** 0.06 * 1.02;
+      return [low / room, high * room];
+    }
     const pad = 0.06 * (high - low) || Math.abs(high) || 1;
     return [low - pad, high + pad];
   };
@@ -501,7 +504,8 @@
         tag("g", {}, tag("title", {}, escaped(`${name}, ${c}: ${short(values[r][k])} m`)) +
           tag("rect", { x: left + k * cell + 1, y: top + r * line + 1, width: cell - 2, height: line - 2, fill: css("--heat"), "fill-opacity": (0.08 + 0.62 * shades[r][k]).toFixed(3) }) +
           label(left + (k + 0.5) * cell, top + (r + 0.5) * line + 4, short(values[r][k]), { "text-anchor": "middle", "font-weight": best[r][k] ? 700 : 400 }))).join(""));
-      return picture(full, top + line * rows.length + 4, heads.join("") + lines.join(""));
+      // Letters stay readable on a narrow screen, where the figure scrolls instead.
+      return picture(full, top + line * rows.length + 4, heads.join("") + lines.join(""), { style: `min-width: ${(0.85 * full).toFixed(0)}px` });
     };
     exports(tools, `${study.scenario}_${kind}`, () => [[of, ...columns.map((c) => `${c} [m]`)], ...rows.map((name, r) => [name, ...values[r]])], () => svg(900));
     return () => { plots.innerHTML = svg(0); };

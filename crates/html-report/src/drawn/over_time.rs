@@ -124,7 +124,7 @@ pub(super) fn consistency(figures: &Figures) -> Sheet {
             .filter(|p| p.0 >= from)
             .map(|p| p.1);
         let y = range(curves.chain(bounds.into_iter().flatten()));
-        let mut made = Panel::new(time(figures, panel.0), Axis::powers(y, name, "", 20.0)).during(&figures.events);
+        let mut made = Panel::new(time(figures, panel.0), Axis::powers(y, name, "1", 20.0)).during(&figures.events);
         if let Some([low, high]) = bounds {
             made = made.within(low, high);
         }
