@@ -488,7 +488,7 @@
     const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools");
     const { of, rows, columns, values, shades, best } = study[kind];
     const svg = (fixed) => {
-      const left = 12 + 7 * Math.max(...rows.map((r) => r.length)), line = 28;
+      const left = 14 + 6.4 * Math.max(...rows.map((r) => r.length)), line = 28;
       const room = fixed || Math.min(plots.clientWidth || 900, 1000);
       const cell = Math.max(Math.min((room - left) / columns.length, 150), 62);
       const slanted = columns.some((c) => 7 * c.length > cell - 8);
@@ -561,19 +561,18 @@
 
   const consistency = (figure, study) => {
     const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools"), readout = figure.querySelector(".readout");
-    const filters = study.filters.map((f, index) => ({ ...f, index })).filter((f) => f.series && f.series.nees.length);
+    const filters = study.filters.map((f, index) => ({ ...f, index })).filter((f) => f.series && f.series.nees.t.length + f.series.nis.t.length);
     if (filters.length === 0) return () => {};
     const shown = filters.map(() => true);
     let live = [];
     const kinds = [["nees", "NEES / states"], ["nis", "NIS / rows"]];
-    const curve = { nees: (f) => ({ t: f.series.t, mean: f.series.nees }), nis: (f) => f.series.nis };
     const onTimes = (times, { t, mean }) => {
       const at = new Map(t.map((time, i) => [time, mean[i]]));
       return times.map((time) => { const v = at.get(time); return v > 0 ? v : null; });
     };
-    const all = (of) => [...new Set(of.flatMap((kind) => filters.flatMap((f) => curve[kind](f).t)))].sort((a, b) => a - b);
+    const all = (of) => [...new Set(of.flatMap((kind) => filters.flatMap((f) => f.series[kind].t)))].sort((a, b) => a - b);
     const times = { nees: all(["nees"]), nis: all(["nis"]) };
-    const data = Object.fromEntries(kinds.map(([kind]) => [kind, filters.map((f) => onTimes(times[kind], curve[kind](f)))]));
+    const data = Object.fromEntries(kinds.map(([kind]) => [kind, filters.map((f) => onTimes(times[kind], f.series[kind]))]));
     const bounds = (kind) => filters.find((f, i) => shown[i] && f[`${kind}_bounds`])?.[`${kind}_bounds`];
     const range = (kind) => {
       const from = Math.max(times[kind].findIndex((t) => t >= study.scored_from_s), 0);
@@ -598,7 +597,7 @@
     filters.forEach((f, i) => toggle(tools, f.name, true, `--f${f.index % 8}`, (on) => { shown[i] = on; draw(); }));
     const csvRows = () => {
       const either = all(["nees", "nis"]);
-      const columns = kinds.flatMap(([kind]) => filters.map((f) => onTimes(either, curve[kind](f))));
+      const columns = kinds.flatMap(([kind]) => filters.map((f) => onTimes(either, f.series[kind])));
       return either.map((t, i) => [t, ...columns.map((c) => c[i])]);
     };
     exports(tools, `${study.scenario}_consistency`,

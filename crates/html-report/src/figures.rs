@@ -22,8 +22,8 @@ const NUMBERS: usize = 400_000;
 /// Most numbers of single runs: some 1.8 MB.
 const RUN_NUMBERS: usize = 450_000;
 
-/// Curves of a filter: three quantities, three axes, three kinds; NEES and three of q.
-const CURVES: usize = 31;
+/// Curves of a filter: three quantities, three axes, three kinds; three of q.
+const CURVES: usize = 30;
 
 /// Two-sided probability of bounds and intervals.
 const CONFIDENCE: f64 = 0.95;
@@ -64,6 +64,7 @@ pub(crate) struct FilterFigures {
     pub series: Option<Series>,
     pub kept: Option<KeptRuns>,
     pub window: Option<Window>,
+    /// Of the mean over the runs at one epoch.
     pub nees_bounds: Option<[f64; 2]>,
     /// Of the means over time that the series has.
     pub nis_bounds: Option<[f64; 2]>,

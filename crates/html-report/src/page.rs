@@ -9,6 +9,7 @@ use crate::ReportError;
 use crate::figures::{self, Figures, FilterFigures};
 use crate::folder::{Folder, Manifest, Row, StudyFacts};
 use crate::number::short;
+use crate::series::{Means, Series};
 use crate::verdict::{RunValues, Verdict};
 
 /// Worst runs listed of each filter.
@@ -67,7 +68,8 @@ struct Section {
     worst: Vec<Worst>,
     notes: Vec<String>,
     every: usize,
-    /// Epochs of which each point of the NIS is a mean.
+    /// Epochs of which each point of the NEES is a mean.
+    nees_epochs: usize,
     nis_epochs: usize,
     has_curves: bool,
     has_events: bool,
@@ -162,6 +164,10 @@ fn section(folder: &Folder, study: &StudyFacts, figures: &Figures) -> Result<Sec
         .iter()
         .filter_map(|f| Some(f.series.as_ref()?.every))
         .max();
+    let epochs = |of: fn(&Series) -> &Means| {
+        let drawn = figures.filters.iter().filter_map(|f| f.series.as_ref());
+        drawn.map(|series| of(series).epochs).max().unwrap_or(1)
+    };
     let any = |has: fn(&FilterFigures) -> bool| figures.filters.iter().any(has);
     Ok(Section {
         has_runs: any(|f| f.kept.is_some()),
@@ -204,12 +210,8 @@ fn section(folder: &Folder, study: &StudyFacts, figures: &Figures) -> Result<Sec
             .collect(),
         notes: study.notes.clone(),
         every: every.unwrap_or(1),
-        nis_epochs: figures
-            .filters
-            .iter()
-            .filter_map(|f| Some(f.series.as_ref()?.nis.epochs))
-            .max()
-            .unwrap_or(1),
+        nees_epochs: epochs(|series| &series.nees),
+        nis_epochs: epochs(|series| &series.nis),
         has_curves: every.is_some(),
         has_events: !figures.events.is_empty(),
         drawn_events: figures.events.iter().any(|e| e.drawn),

@@ -102,9 +102,9 @@ fn labelled(name: &str, unit: &str) -> String {
     }
 }
 
-/// Exponent, a multiple of three, that leaves numbers of this size between 1 and 1000.
+/// Exponent, a multiple of three, that leaves numbers of this size between 1 and 1000; none where they are short anyway.
 fn exponent(size: f64) -> i32 {
-    if size > 0.0 && !(1e-1..1e4).contains(&size) {
+    if size > 0.0 && !(1e-1..1e5).contains(&size) {
         3 * (size.log10() / 3.0 + 1e-9).floor() as i32
     } else {
         0

@@ -25,8 +25,10 @@ pub(super) fn errors(figures: &Figures, filter: &FilterFigures, series: &Series)
     let mut keys = vec![
         Key::line("mean error", INK, None),
         Key::line("3σ of the errors", BLUE, None),
-        Key::line("3σ as estimated", VERMILION, Some((6, 3))),
     ];
+    let mut axes = series.quantities.iter().flat_map(|q| &q.axes);
+    let claims = axes.any(|a| a.estimated.iter().any(Option::is_some));
+    keys.extend(claims.then(|| Key::line("3σ as estimated", VERMILION, Some((6, 3)))));
     keys.extend(filter.kept.as_ref().map(|_| Key::line("single runs", FAINT, None)));
     keys.extend(Key::of_events(&figures.events));
     let axes = series
@@ -105,13 +107,18 @@ fn of_filters<'f>(
 /// NEES and NIS of every filter.
 pub(super) fn consistency(figures: &Figures) -> Sheet {
     let panel = (900, 260);
-    let nees = of_filters(figures, |f| f.series.as_ref().map(|s| (&s.t[..], &s.nees[..])));
+    let nees = of_filters(figures, |f| {
+        f.series.as_ref().map(|s| (&s.nees.t[..], &s.nees.mean[..]))
+    });
     let nis = of_filters(figures, |f| f.series.as_ref().map(|s| (&s.nis.t[..], &s.nis.mean[..])));
     let bounds = [
         figures.filters.iter().find_map(|f| f.nees_bounds),
         figures.filters.iter().find_map(|f| f.nis_bounds),
     ];
-    let mut keys = Key::of_filters(figures, |index| figures.filters[index].series.is_some());
+    let told = |s: &Series| !s.nees.t.is_empty() || !s.nis.t.is_empty();
+    let mut keys = Key::of_filters(figures, |index| {
+        figures.filters[index].series.as_ref().is_some_and(told)
+    });
     keys.extend(bounds.iter().flatten().next().map(|_| Key::bounds()));
     keys.extend(Key::of_events(&figures.events));
     let kinds = [("NEES / states", nees), ("NIS / rows", nis)].into_iter().zip(bounds);
