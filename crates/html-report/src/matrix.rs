@@ -4,9 +4,11 @@ use serde::Serialize;
 
 use crate::folder::Row;
 
-/// Most columns, and most letters of their names, that stand beside each other; else they stand below each other.
-const COLUMNS: usize = 8;
-const LETTERS: usize = 14;
+/// Width that phases or cases may take up beside each other, else they stand below each other; that of a letter, and that of a
+/// value at least.
+const WIDTH: usize = 900;
+const LETTER: usize = 7;
+const VALUE: usize = 62;
 
 /// Errors by filter and by phase or case.
 #[derive(Debug, Serialize)]
@@ -50,7 +52,8 @@ impl Matrix {
             values.min_by(f64::total_cmp)
         };
         let least: Vec<Option<f64>> = columns.iter().map(least).collect();
-        let wide = columns.len() > COLUMNS || columns.iter().any(|c| c.chars().count() > LETTERS);
+        let longest = |names: &[String]| LETTER * names.iter().map(|n| n.chars().count()).max().unwrap_or(0);
+        let wide = longest(&filters) + columns.len() * longest(&columns).max(VALUE) > WIDTH;
         let ratio = |filter: &String, c: usize| Some(value(filter, &columns[c])? / least[c]?);
         let shade = |f: &String, c: usize| {
             // That of zero over zero is no number.
