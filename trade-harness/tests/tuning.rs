@@ -250,12 +250,8 @@ fn the_table_of_the_best_fits_a_terminal_of_80_columns() {
         assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     }
     // Nothing is lost: the whole name stands below, and every column in the wide table.
-    assert!(ranking.render().contains(label) && ranking.render().contains("as given 1.234e-5"));
-    assert!(
-        !ranking.render().contains("e-\n"),
-        "a number is broken: {}",
-        ranking.render()
-    );
+    let words = ranking.render().split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains(label) && words.contains("untuned 1.234e-5"), "{words}");
     assert!(ranking.render_wide().contains("[us/step]") && ranking.render_wide().contains(label));
 }
 

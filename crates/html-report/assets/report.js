@@ -290,6 +290,7 @@
   };
 
   // ---- the figures of one study; each returns what draws it anew
+  const shadesOf = (study) => study.events.map((e) => ({ from: e.from_s, to: e.to_s, tint: css(e.kind === "burn" ? "--burn" : "--vent") }));
   const LINES = [
     { name: "mean error", tint: "--f6", width: 1, of: [["mean", 1]] },
     { name: "3σ sample", tint: "--f0", of: [["sample", 3], ["sample", -3]] },
@@ -355,7 +356,7 @@
         const [low, high] = [live[i].scales.y.min, live[i].scales.y.max];
         return panel({ width, height, left: (i % 3) * width, top: legend.height + Math.floor(i / 3) * height, title: p.title,
           x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low, high, label: "error", unit: p.unit },
-          shades: study.events.map((e) => ({ from: e.from_s, to: e.to_s, tint: css(e.kind === "burn" ? "--burn" : "--vent") })),
+          shades: shadesOf(study),
           series: [...(p.faint && shown[RUNS] ? Array.from({ length: p.faint.values.length / p.faint.t.length }, (_, k) => ({
             x: p.faint.t, y: p.faint.values.slice(k * p.faint.t.length, (k + 1) * p.faint.t.length), tint: css("--run"), width: 0.6 })) : []),
           ...p.lines.filter((l) => shown[l.index]).map((l) => ({ x: p.t, y: l.y, tint: css(l.tint), width: l.width, dash: l.dash }))] });
@@ -404,7 +405,7 @@
         const legend = key(filters.filter((f, i) => shown[i]).map((f) => ({ name: f.name, tint: colour(f.index), dash: dash(f.index) })), 3 * width);
         return picture(3 * width, legend.height + height, legend.inner + names.map((name, axis) => {
           const { x, y } = live[axis].scales;
-          return panel({ width, height, left: axis * width, top: legend.height, x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low: y.min, high: y.max, log: true, label: `√q, ${name}`, unit },
+          return panel({ width, height, left: axis * width, top: legend.height, x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low: y.min, high: y.max, log: true, label: `√q, ${name}`, unit }, shades: shadesOf(study),
             series: filters.map((f, i) => ({ x: times, y: data[axis][i], tint: colour(f.index), dash: dash(f.index) })).filter((_, i) => shown[i]) });
         }).join(""));
       });
@@ -607,7 +608,7 @@
         const legend = key(filters.filter((f, i) => shown[i]).map((f) => ({ name: f.name, tint: colour(f.index), dash: dash(f.index) })), width);
         const inner = kinds.map(([kind, name], k) => {
           const b = bounds(kind), { x, y } = live[k].scales;
-          return panel({ width, height, top: legend.height + k * height, x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low: y.min, high: y.max, log: true, label: name },
+          return panel({ width, height, top: legend.height + k * height, x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low: y.min, high: y.max, log: true, label: name }, shades: shadesOf(study),
             bands: b ? [{ low: b[0], high: b[1], tint: css("--band") }] : [],
             series: filters.map((f, i) => ({ x: times[kind], y: data[kind][i], tint: colour(f.index), dash: dash(f.index) })).filter((s, i) => shown[i]) });
         });

@@ -175,7 +175,7 @@ fn about(rows: &[Row], narrow: bool) -> String {
     let mut text = String::new();
     for row in rows {
         let given = row.given.filter(|_| narrow);
-        let given = given.map(|given| format!("as given {}", format::number(Some(given))));
+        let given = given.map(|given| format!("untuned {}", format::number(Some(given))));
         let told = [row.tuned.clone(), given.unwrap_or_default(), row.notes.clone()];
         let parts: Vec<String> = told.into_iter().filter(|t| !t.is_empty()).collect();
         if !parts.is_empty() {
@@ -225,7 +225,7 @@ fn is_text(column: usize) -> bool {
 /// How to read the table that fits 80 columns.
 pub const LEGEND: &str = "\
 rank: place by what the filters were tuned for; the other errors come with it;
-NEES: 1 on average when consistent; as given: RMSE of the filter as named to
+NEES: 1 on average when consistent; untuned: RMSE of the filter as named to
 --filters, in the same worlds. More columns: --wide, best.md and best.csv";
 
 /// How to read the table with all columns.

@@ -7,7 +7,7 @@ use super::sheet::{
     Area, BLUE, BOTTOM, Dot, INK, Key, LEFT, Label, Line, Mark, ORANGE, Panel, RIGHT, SKY, SOFT, Sheet, TITLE, TOP,
     VERMILION, colour, dash, range,
 };
-use crate::figures::{Figures, Forest};
+use crate::figures::{Figures, FilterFigures, Forest};
 use crate::kept::Path;
 use crate::matrix::Matrix;
 use crate::number::short;
@@ -93,32 +93,40 @@ pub(super) fn pairs(figures: &Figures, quantity: usize) -> Option<Sheet> {
 /// * returns: `None` where no run has a result.
 pub(super) fn runs(figures: &Figures, quantity: usize) -> Option<Sheet> {
     let [name, unit] = figures.errors[quantity];
-    let all = figures
+    let positive = |filter: &FilterFigures| filter.sorted[quantity].iter().copied().filter(|v| *v > 0.0).collect();
+    let sorted: Vec<Vec<f64>> = figures.filters.iter().map(positive).collect();
+    let all = || sorted.iter().flatten().copied();
+    let (low, high) = (all().min_by(f64::total_cmp)?, all().max_by(f64::total_cmp)?);
+    let powers = high > 5.0 * low;
+    let place = |v: f64| if powers { v.log10() } else { v };
+    let x = range(all().map(place));
+    let lines = figures
         .filters
         .iter()
-        .flat_map(|f| &f.sorted[quantity])
-        .filter(|v| **v > 0.0);
-    let logarithms: Vec<f64> = all.map(|v| v.log10()).collect();
-    let there = !logarithms.is_empty();
-    let x = range(logarithms);
-    let lines = figures.filters.iter().enumerate().map(|(index, filter)| {
-        let share = |n: usize| n as f64 / f64::from(filter.runs);
-        let steps = filter.sorted[quantity].iter().filter(|v| **v > 0.0).enumerate();
-        let steps = steps.flat_map(|(i, v)| [(v.log10(), share(i)), (v.log10(), share(i + 1))]);
-        let mut points: Vec<_> = steps.collect();
-        points.extend(points.last().map(|last| (x.end, last.1)));
-        Line {
-            points,
-            colour: colour(index),
-            width: 2.0,
-            dash: dash(index),
-        }
-    });
+        .zip(&sorted)
+        .enumerate()
+        .map(|(index, (filter, sorted))| {
+            let share = |n: usize| n as f64 / f64::from(filter.runs);
+            let steps = sorted.iter().enumerate();
+            let steps = steps.flat_map(|(i, v)| [(place(*v), share(i)), (place(*v), share(i + 1))]);
+            let mut points: Vec<_> = steps.collect();
+            points.extend(points.last().map(|last| (x.end, last.1)));
+            Line {
+                points,
+                colour: colour(index),
+                width: 2.0,
+                dash: dash(index),
+            }
+        });
     let lines = lines.collect();
-    let x = Axis::powers(x, &format!("{name} RMSE of a run"), unit, 12.0);
+    let label = format!("{name} RMSE of a run");
+    let x = match powers {
+        true => Axis::powers(x, &label, unit, 12.0),
+        false => Axis::linear(x, &label, unit, 8.0),
+    };
     let mut panel = Panel::new(x, Axis::linear(0.0..1.02, "share of runs", "1", 5.0));
     panel.lines = lines;
-    there.then(|| Sheet {
+    Some(Sheet {
         panel: (900, 400),
         across: 1,
         name: String::new(),
