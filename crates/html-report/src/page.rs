@@ -289,8 +289,9 @@ fn badges(row: &Row) -> Badges {
         };
         marks.push(Mark {
             good,
+            // Bounds stay on one line.
             text: format!(
-                "NEES {} {place} {}–{}",
+                "NEES {} {place} {}\u{2060}–\u{2060}{}",
                 short(Some(nees)),
                 short(Some(low)),
                 short(Some(high))
