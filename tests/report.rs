@@ -211,40 +211,122 @@ fn a_folder_that_was_sent_gives_the_same_page() {
     assert!(page(sent.path()).contains("there are no figures over time"));
 }
 
-#[test]
-fn figures_are_written_as_svg_and_png() {
-    let sent = tempfile::tempdir().unwrap();
-    for (name, bytes) in results(study()) {
-        let path = sent.path().join(&name);
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(path, bytes).unwrap();
-    }
-    let output = harness(&["report", text(sent.path()), "--svg", "--png"]);
+/// Figures of the page by class, and the beginning of the name of the files that hold them; tables are CSV files already.
+const FILES: [(&str, Option<&str>); 13] = [
+    ("search", Some("search_")),
+    ("cases", Some("cases")),
+    ("phases", Some("phases")),
+    ("errors", Some("error_")),
+    ("consistency", Some("consistency")),
+    ("noise", Some("process_noise")),
+    ("path", Some("path")),
+    ("forest", Some("paired_")),
+    ("cdf", Some("runs_")),
+    ("learning", Some("learning_curve")),
+    ("window", None),
+    ("summary", None),
+    ("summary lines", None),
+];
+
+/// Draws all figures of a folder; each that its page has must be there as SVG and as PNG of twice the size, and no other.
+///
+/// * returns: the kinds of figures; `None` on a system without a font.
+fn drawn(folder: &Path, prefix: &str) -> Option<Vec<&'static str>> {
+    let output = harness(&["report", text(folder), "--svg", "--png"]);
     let said = String::from_utf8_lossy(&output.stderr);
     if said.contains("no font was found") {
-        skipped("figures_are_written_as_svg_and_png", "fonts-dejavu-core");
-        return;
+        skipped("figures as files", "fonts-dejavu-core");
+        return None;
     }
     assert!(output.status.success(), "{said}");
-    let figure = |name: &str| {
-        std::fs::read(sent.path().join(format!(
-            "figures/leo_venting_vent.scale-3_lidar.sigma_range-loguniform-0.05-0.2_{name}"
-        )))
+    let mut names: Vec<String> = std::fs::read_dir(folder.join("figures"))
         .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    let mut found = Vec::new();
+    let page = page(folder);
+    for class in page.split("<figure class=\"").skip(1) {
+        let class = class.split('"').next().unwrap();
+        let (class, file) = FILES
+            .iter()
+            .find(|(known, _)| *known == class)
+            .unwrap_or_else(|| panic!("nobody says where the figure {class:?} is written"));
+        let Some(file) = file else { continue };
+        found.push(*class);
+        let begin = format!("{prefix}{file}");
+        let (of_class, others) = names.into_iter().partition(|name: &String| name.starts_with(&begin));
+        names = others;
+        let of_class: Vec<String> = of_class;
+        assert!(!of_class.is_empty(), "{class}: no file {begin}*");
+        for name in &of_class {
+            let (stem, extension) = name.rsplit_once('.').unwrap();
+            let [svg, png] = ["svg", "png"].map(|e| std::fs::read(folder.join(format!("figures/{stem}.{e}"))).unwrap());
+            let svg = String::from_utf8(svg).unwrap();
+            assert!(["svg", "png"].contains(&extension) && svg.contains("<text"), "{name}");
+            assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n", "{name}");
+            let side = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
+            let units = |side: &str| between(&svg, &format!(" {side}=\""), "\"").parse::<u32>().unwrap();
+            assert_eq!(
+                [side(16), side(20)],
+                ["width", "height"].map(|side| 2 * units(side)),
+                "{name}"
+            );
+        }
+    }
+    assert!(names.is_empty(), "of no figure: {names:?}");
+    Some(found)
+}
+
+#[test]
+fn every_figure_of_the_page_is_written_as_svg_and_png() {
+    let sent = copy_of_the_study();
+    // Another case beside the one of the study, and a search of two filters.
+    let summary = std::fs::read_to_string(study().join("summary.csv")).unwrap();
+    let case = read_csv(&study().join("summary.csv"))[0]["case"].clone();
+    let more: Vec<String> = summary
+        .lines()
+        .skip(1)
+        .map(|line| line.replace(&case, "another") + "\n")
+        .collect();
+    std::fs::write(sent.path().join("summary.csv"), summary + &more.concat()).unwrap();
+    std::fs::write(sent.path().join("search.csv"), SEARCH).unwrap();
+    let prefix = format!("leo_venting_{case}_");
+    let Some(found) = drawn(sent.path(), &prefix) else {
+        return;
     };
+    assert_eq!(
+        found,
+        [
+            "search",
+            "cases",
+            "phases",
+            "errors",
+            "consistency",
+            "noise",
+            "path",
+            "forest",
+            "cdf"
+        ]
+    );
     // What each must show beside its curves: names, quantities with units.
     for (name, shows) in [
         (
             "error_snc",
             &[
                 "position, r [m]",
-                "velocity, n [m/s]",
+                "velocity, n [10⁻³ m/s]",
                 "time [s]",
                 "mean error",
                 "single runs",
+                "vents",
+                "stroke=\"#C8C8C8\"",
             ][..],
         ),
-        ("consistency", &["NEES / states [1]", "NIS / rows [1]", "snc"]),
+        (
+            "consistency",
+            &["NEES / states [1]", "NIS / rows [1]", "snc", "95 % bounds"],
+        ),
         (
             "paired_position",
             &[
@@ -254,20 +336,29 @@ fn figures_are_written_as_svg_and_png() {
                 "snc − fixed_q",
             ],
         ),
-        ("process_noise", &["root of q, x [m/s^2.5]", "time [s]", "milton"]),
-        ("path", &["true path of run 0", "t [m]", "r [m]"]),
+        ("process_noise", &["√q, x [m/s²·⁵]", "time [s]", "milton"]),
+        ("path", &["true path of run 0", "t [m]", "r [m]", "burns"]),
         (
             "runs_velocity",
             &["velocity RMSE of a run [m/s]", "share of runs", "fixed_q"],
         ),
+        ("search_snc", &["snc.q", "position RMSE [m]", "as given", "10⁻⁶"]),
+        ("phases", &["position RMSE [m] by phase", "scored", "vents", "milton"]),
+        ("cases", &["position RMSE [m] by case", "another", &case, "milton"]),
     ] {
-        let svg = String::from_utf8(figure(&format!("{name}.svg"))).unwrap();
+        let svg = std::fs::read_to_string(sent.path().join(format!("figures/{prefix}{name}.svg"))).unwrap();
         for part in shows {
             assert!(svg.contains(part), "{name}: {part}");
         }
-        let png = figure(&format!("{name}.png"));
-        assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n", "{name}");
-        assert!(png.len() > 10_000, "{name}: {} bytes", png.len());
+    }
+    // A heat map prints what the table says: each value twice, once for each case.
+    let svg = std::fs::read_to_string(sent.path().join(format!("figures/{prefix}cases.svg"))).unwrap();
+    for row in read_csv(&study().join("summary.csv")) {
+        let value: f64 = row["pos_rmse_m"].parse().unwrap();
+        // Of three digits: half a unit of the last is at most a two hundredth.
+        let same = |shown: &f64| (shown / value - 1.0).abs() <= 0.005;
+        let shown = svg.lines().filter_map(|line| line.trim().parse().ok()).filter(same);
+        assert_eq!(shown.count(), 2, "{value}");
     }
 }
 
@@ -434,14 +525,27 @@ addEventListener("load", () => setTimeout(() => {
 }, 200));
 </script>"#;
 
-/// A copy of the study with more tables beside it, and its page.
-fn with_tables(tables: &[(&str, &str)]) -> String {
+fn copy_of_the_study() -> tempfile::TempDir {
     let sent = tempfile::tempdir().unwrap();
     for (name, bytes) in results(study()) {
         let path = sent.path().join(&name);
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
         std::fs::write(path, bytes).unwrap();
     }
+    sent
+}
+
+/// A search of one filter and one parameter.
+const SEARCH: &str = "\
+scenario,filter,evaluation,round,values,ranges,objective,value,nees,failed,diverged,bad_runs,feasible
+leo_venting,snc,1,0,,snc.q=1e-6:1e-2,position,3,1,0,0,0,1
+leo_venting,snc,2,0,snc.q=1e-4,snc.q=1e-6:1e-2,position,2,1,0,0,0,1
+leo_venting,snc,3,0,snc.q=2e-3,snc.q=1e-6:1e-2,position,1,9,0,0,0,0
+";
+
+/// A copy of the study with more tables beside it, and its page.
+fn with_tables(tables: &[(&str, &str)]) -> String {
+    let sent = copy_of_the_study();
     for (name, text) in tables {
         std::fs::write(sent.path().join(name), text).unwrap();
     }
@@ -493,13 +597,7 @@ fn phases_requirements_pairs_and_searches_are_shown_where_they_are() {
                 "scenario,filter,reference,case,quantity,runs,mean_difference,standard_error,difference,low,high\n{pairs}"
             ),
         ),
-        (
-            "search.csv",
-            "scenario,filter,evaluation,round,values,ranges,objective,value,nees,failed,diverged,bad_runs,feasible\n\
-             leo_venting,snc,1,0,,snc.q=1e-6:1e-2,position,3,1,0,0,0,1\n\
-             leo_venting,snc,2,0,snc.q=1e-4,snc.q=1e-6:1e-2,position,2,1,0,0,0,1\n\
-             leo_venting,snc,3,0,snc.q=2e-3,snc.q=1e-6:1e-2,position,1,9,0,0,0,0\n",
-        ),
+        ("search.csv", SEARCH),
     ]);
     let list = between(&page, "Every requirement is met by snc, not by milton.", "</details>");
     assert!(
@@ -558,6 +656,12 @@ fn a_folder_of_reproduce_has_a_page_of_its_own() {
     let expected = serde_json::json!({"learning": 6, "rows": 3, "good": 1, "resources": 0});
     for (name, value) in expected.as_object().unwrap() {
         assert_eq!(&found[name], value, "{name}: {found}");
+    }
+    let Some(files) = drawn(folder.path(), "") else { return };
+    assert_eq!(files, ["learning"]);
+    let svg = std::fs::read_to_string(folder.path().join("figures/learning_curve.svg")).unwrap();
+    for part in ["true acceleration", "acceleration, z [m/s²]", "time [s]", "10⁻⁷"] {
+        assert!(svg.contains(part), "{part}");
     }
 }
 

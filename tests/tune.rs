@@ -205,8 +205,18 @@ fn a_filter_with_nothing_to_tune_is_judged_as_it_is() {
         "--judge-runs",
         "1",
     ];
-    let table = harness_ok(&[&tune[..], &["--out", text(folder.path())]].concat());
-    assert!(table.contains("fixed_q: nothing to tune"), "{table}");
+    let told = harness_ok(&[&tune[..], &["--json", "--out", text(folder.path())]].concat());
+    let told: serde_json::Value = serde_json::from_str(&told).unwrap();
+    let ranking = &told["ranking"][0];
+    assert_eq!(
+        (&ranking["scenario"], &ranking["objective"]),
+        (&"leo_venting".into(), &"position".into())
+    );
+    let best = &read_csv(&folder.path().join("best.csv"))[0];
+    for column in ["filter", "notes"] {
+        assert_eq!(ranking["filters"][0][column], *best[column], "{column}");
+    }
+    assert_eq!(ranking["filters"][0]["pos_rmse_m"], number(best, "pos_rmse_m"));
     assert_eq!(read_csv(&folder.path().join("search.csv")).len(), 0);
 }
 

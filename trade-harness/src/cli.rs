@@ -545,6 +545,9 @@ pub struct TuneArgs {
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "results/tune")]
     pub out: PathBuf,
+    /// All columns of the table; the plain one fits 80 columns
+    #[arg(long)]
+    pub wide: bool,
     /// Which filters, which parameters.
     #[command(flatten)]
     pub study: StudyArgs,

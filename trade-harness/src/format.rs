@@ -94,7 +94,11 @@ pub(crate) const TERMINAL: usize = 80;
 
 /// A line that is broken where it is wider than a terminal, what follows set under its ninth letter.
 pub(crate) fn wrapped(line: &str) -> String {
-    textwrap::fill(line, textwrap::Options::new(TERMINAL).subsequent_indent("        "))
+    // At blanks alone: a number such as 1e-5 stays whole.
+    let options = textwrap::Options::new(TERMINAL)
+        .subsequent_indent("        ")
+        .word_splitter(textwrap::WordSplitter::NoHyphenation);
+    textwrap::fill(line, options)
 }
 
 /// Where the cells of a column of a Markdown table stand.

@@ -4,6 +4,7 @@
 mod mocks;
 
 use mocks::{BEST_GAIN, Quirk, SIGMA, noise, spec};
+use serde_json::json;
 use study::{Quantity, Study, Summary, evaluate};
 use trade_harness::report::best::{self, Entry, Ranking};
 use trade_harness::report::searched;
@@ -213,10 +214,45 @@ fn filters_are_ranked_and_sorted_by_the_objective() {
     assert!(text.contains("first; second"), "{text}");
     assert!(ranking.markdown().contains("a\\|b=1"), "{}", ranking.markdown());
     assert!(
-        ranking.render().contains("never: a|b=1; first; second"),
+        ranking.render_wide().contains("never: a|b=1; first; second"),
         "{}",
-        ranking.render()
+        ranking.render_wide()
     );
+    // What programs are told is what stands in the file.
+    let told = ranking.told();
+    assert_eq!((&told[0]["filter"], &told[2]["rank"]), (&json!("same"), &json!(3)));
+    let rmse: f64 = cells(text.lines().nth(1).unwrap(), &["pos_rmse_m"])[0].parse().unwrap();
+    assert_eq!(told[0]["pos_rmse_m"], json!(rmse));
+}
+
+#[test]
+fn the_table_of_the_best_fits_a_terminal_of_80_columns() {
+    let label = "constrained_q@full-tuned-once-more";
+    let mut best = Summary {
+        filter: label.to_owned(),
+        failed: 10_000,
+        diverged: 10_000,
+        ..Summary::default()
+    };
+    for errors in [&mut best.position, &mut best.velocity, &mut best.acceleration] {
+        errors.rmse = Some(1.2345e-5);
+    }
+    best.nees.mean = Some(1.2345e-5);
+    let entry = Entry {
+        best: &best,
+        given: Some(&best),
+        timing: None,
+        tuned: "constrained_q.lower=1.234e-5 ".repeat(5),
+        notes: vec!["something that takes many words to say ".repeat(5)],
+    };
+    let ranking = Ranking::new(vec![entry], Objective::Position);
+    for text in [&ranking.render(), best::LEGEND] {
+        assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    }
+    // Nothing is lost: the whole name stands below, and every column in the wide table.
+    let words = ranking.render().split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains(label) && words.contains("untuned 1.234e-5"), "{words}");
+    assert!(ranking.render_wide().contains("[us/step]") && ranking.render_wide().contains(label));
 }
 
 #[test]

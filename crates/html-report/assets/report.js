@@ -100,8 +100,8 @@
   const tag = (name, attributes, inner = "") =>
     `<${name}${Object.entries(attributes).map(([k, v]) => ` ${k}="${escaped(v)}"`).join("")}>${inner}</${name}>`;
   const label = (x, y, text, more = {}) => tag("text", { x: x.toFixed(1), y: y.toFixed(1), fill: css("--ink"), ...more }, escaped(text));
-  const picture = (width, height, inner) =>
-    tag("svg", { xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${width} ${height}`, width, height, role: "img",
+  const picture = (width, height, inner, more = {}) =>
+    tag("svg", { xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${width} ${height}`, width, height, role: "img", ...more,
       "font-family": "Helvetica Neue, Helvetica, Arial, Liberation Sans, sans-serif", "font-size": 12 }, inner);
   const ticks = (low, high, count) => {
     const raw = (high - low) / count;
@@ -111,12 +111,14 @@
     for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) found.push(k * step);
     return found;
   };
-  /** Places of a logarithmic axis: powers of ten, or also twice and five times these where there are few. */
+  /** Places of a logarithmic axis: powers of ten, or more between them where there are few. */
   const decades = (low, high, most = 20) => {
     const found = [];
-    const every = Math.ceil(Math.log10(high / low) / most);
+    const span = Math.log10(high / low), every = Math.ceil(span / most);
+    const within = span > 2.5 ? [1] : span > 0.9 ? [1, 2, 5] : span > 0.35 ? [1, 1.5, 2, 3, 4, 5, 7] :
+      [1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.8, 2, 2.2, 2.5, 3, 3.5, 4, 4.5, 5, 6, 7, 8, 9];
     for (let e = Math.floor(Math.log10(low) / every) * every; e <= Math.log10(high); e += every) {
-      for (const m of high / low > 300 ? [1] : [1, 2, 5]) found.push(+`${m}e${e}`);
+      for (const m of within) found.push(+`${m}e${e}`);
     }
     return found.filter((v) => v >= low * (1 - 1e-9) && v <= high * (1 + 1e-9));
   };
@@ -142,7 +144,7 @@
       frame.push(tag("line", { x1: left, x2: left + w, y1: py(v), y2: py(v), stroke: css("--grid") }));
       frame.push(label(left - 6, py(v) + 4, o.y.log ? power(v) || trimmed(v) : trimmed(v / 10 ** e), { "text-anchor": "end" }));
     }
-    for (const v of o.x.log ? decades(o.x.low, o.x.high, w / 44) : ticks(o.x.low, o.x.high, Math.min(8, Math.max(3, Math.floor(w / 90))))) {
+    for (const v of o.x.log ? decades(o.x.low, o.x.high, w / 44) : ticks(o.x.low, o.x.high, Math.min(10, Math.max(3, Math.floor(w / 65))))) {
       frame.push(tag("line", { x1: px(v), x2: px(v), y1: top, y2: top + h, stroke: css("--grid") }));
       frame.push(label(px(v), top + h + 16, o.x.log ? power(v) || trimmed(v) : trimmed(v / 10 ** ex), { "text-anchor": "middle" }));
     }
@@ -192,7 +194,10 @@
     return low <= high ? [low, high] : null;
   };
   const padded = ([low, high], log) => {
-    if (log) return [low / 1.3, high * 1.3];
+    if (log) {
+      const room = (high / low) ** 0.06 * 1.02;
+      return [low / room, high * room];
+    }
     const pad = 0.06 * (high - low) || Math.abs(high) || 1;
     return [low - pad, high + pad];
   };
@@ -285,6 +290,7 @@
   };
 
   // ---- the figures of one study; each returns what draws it anew
+  const shadesOf = (study) => study.events.map((e) => ({ from: e.from_s, to: e.to_s, tint: css(e.kind === "burn" ? "--burn" : "--vent") }));
   const LINES = [
     { name: "mean error", tint: "--f6", width: 1, of: [["mean", 1]] },
     { name: "3σ sample", tint: "--f0", of: [["sample", 3], ["sample", -3]] },
@@ -350,7 +356,7 @@
         const [low, high] = [live[i].scales.y.min, live[i].scales.y.max];
         return panel({ width, height, left: (i % 3) * width, top: legend.height + Math.floor(i / 3) * height, title: p.title,
           x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low, high, label: "error", unit: p.unit },
-          shades: study.events.map((e) => ({ from: e.from_s, to: e.to_s, tint: css(e.kind === "burn" ? "--burn" : "--vent") })),
+          shades: shadesOf(study),
           series: [...(p.faint && shown[RUNS] ? Array.from({ length: p.faint.values.length / p.faint.t.length }, (_, k) => ({
             x: p.faint.t, y: p.faint.values.slice(k * p.faint.t.length, (k + 1) * p.faint.t.length), tint: css("--run"), width: 0.6 })) : []),
           ...p.lines.filter((l) => shown[l.index]).map((l) => ({ x: p.t, y: l.y, tint: css(l.tint), width: l.width, dash: l.dash }))] });
@@ -399,7 +405,7 @@
         const legend = key(filters.filter((f, i) => shown[i]).map((f) => ({ name: f.name, tint: colour(f.index), dash: dash(f.index) })), 3 * width);
         return picture(3 * width, legend.height + height, legend.inner + names.map((name, axis) => {
           const { x, y } = live[axis].scales;
-          return panel({ width, height, left: axis * width, top: legend.height, x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low: y.min, high: y.max, log: true, label: `√q, ${name}`, unit },
+          return panel({ width, height, left: axis * width, top: legend.height, x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low: y.min, high: y.max, log: true, label: `√q, ${name}`, unit }, shades: shadesOf(study),
             series: filters.map((f, i) => ({ x: times, y: data[axis][i], tint: colour(f.index), dash: dash(f.index) })).filter((_, i) => shown[i]) });
         }).join(""));
       });
@@ -478,31 +484,31 @@
     return () => { plots.innerHTML = svg(0); };
   };
 
-  /** Filters by phases or cases, the darker the larger beside the best of the column. */
+  /** Filters by phases or cases, the stronger the colour the larger beside the best of the phase or case. */
   const matrix = (kind) => (figure, study) => {
     const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools");
-    const { filters, columns, values } = study[kind];
+    const { of, rows, columns, values, shades, best } = study[kind];
     const svg = (fixed) => {
-      const left = 12 + 7 * Math.max(...filters.map((f) => f.length)), line = 28;
-      const full = Math.max(fixed || Math.min(plots.clientWidth || 900, 1000), left + 62 * columns.length);
-      const cell = Math.min((full - left) / columns.length, 150);
+      const left = 14 + 6.4 * Math.max(...rows.map((r) => r.length)), line = 28;
+      const room = fixed || Math.min(plots.clientWidth || 900, 1000);
+      const cell = Math.max(Math.min((room - left) / columns.length, 150), 62);
       const slanted = columns.some((c) => 7 * c.length > cell - 8);
       const top = slanted ? 24 + 4.2 * Math.max(...columns.map((c) => c.length)) : 24;
+      // What is slanted reaches beyond its column.
+      const right = slanted ? Math.max(...columns.map((c, k) => 5.8 * c.length - (columns.length - k - 0.5) * cell), 0) : 0;
+      const full = Math.max(room, left + cell * columns.length + right);
       const heads = columns.map((c, k) => {
         const x = left + (k + 0.5) * cell;
         return label(x, top - 8, c, slanted ? { transform: `rotate(-35 ${x.toFixed(1)} ${top - 8})` } : { "text-anchor": "middle" });
       });
-      const rows = filters.map((f, r) => label(left - 8, top + (r + 0.5) * line + 4, f, { "text-anchor": "end" }) + columns.map((c, k) => {
-        const value = values[r][k], best = Math.min(...values.map((row) => row[k] ?? Infinity));
-        // A decade beside the best is as dark as it gets.
-        const share = value === null ? 0 : Math.min(Math.log10(value / best), 1) || 0;
-        return tag("g", {}, tag("title", {}, escaped(`${f}, ${c}: ${short(value)} m${value === null ? "" : `, ${short(value / best)} times the best`}`)) +
-          tag("rect", { x: left + k * cell + 1, y: top + r * line + 1, width: cell - 2, height: line - 2, fill: css("--heat"), "fill-opacity": (0.08 + 0.62 * share).toFixed(3) }) +
-          label(left + (k + 0.5) * cell, top + (r + 0.5) * line + 4, short(value), { "text-anchor": "middle", "font-weight": value === best ? 700 : 400 }));
-      }).join(""));
-      return picture(full, top + line * filters.length + 4, heads.join("") + rows.join(""));
+      const lines = rows.map((name, r) => label(left - 8, top + (r + 0.5) * line + 4, name, { "text-anchor": "end" }) + columns.map((c, k) =>
+        tag("g", {}, tag("title", {}, escaped(`${name}, ${c}: ${short(values[r][k])} m`)) +
+          tag("rect", { x: left + k * cell + 1, y: top + r * line + 1, width: cell - 2, height: line - 2, fill: css("--heat"), "fill-opacity": (0.08 + 0.62 * shades[r][k]).toFixed(3) }) +
+          label(left + (k + 0.5) * cell, top + (r + 0.5) * line + 4, short(values[r][k]), { "text-anchor": "middle", "font-weight": best[r][k] ? 700 : 400 }))).join(""));
+      // Letters stay readable on a narrow screen, where the figure scrolls instead.
+      return picture(full, top + line * rows.length + 4, heads.join("") + lines.join(""), { style: `min-width: ${(0.85 * full).toFixed(0)}px` });
     };
-    exports(tools, `${study.scenario}_${kind}`, () => [["filter", ...columns.map((c) => `${c} [m]`)], ...filters.map((f, r) => [f, ...values[r]])], () => svg(900));
+    exports(tools, `${study.scenario}_${kind}`, () => [[of, ...columns.map((c) => `${c} [m]`)], ...rows.map((name, r) => [name, ...values[r]])], () => svg(900));
     return () => { plots.innerHTML = svg(0); };
   };
 
@@ -517,8 +523,7 @@
       const found = s.tries.filter((t) => t.error > 0);
       const errors = found.map((t) => t.error);
       const [low, high] = errors.length ? padded([Math.min(...errors), Math.max(...errors)], true) : [0.1, 1];
-      const best = found.filter((t) => t.feasible).reduce((b, t) => (b === null || t.error < b.error ? t : b), null);
-      const given = found.find((t) => t.values.length === 0);
+      const [best, given] = [s.best, s.given].map((index) => (index === null ? null : s.tries[index]));
       figure.querySelector(".chosen").textContent = s.filter;
       const panels = s.parameters.map((p, i) => {
         const twentieth = (p.high / p.low) ** 0.05, room = twentieth ** 0.6;
@@ -541,62 +546,71 @@
 
   const learning = (figure, study) => {
     const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools");
-    const { t, axes } = study.learning;
-    const lines = [{ name: "true acceleration", tint: "--f6" }, { name: "error of its estimate, root mean square", tint: "--f1" }];
+    const { t, span_s, axes } = study.learning;
+    const lines = [{ name: "true acceleration", tint: "--f6" }, { name: "error of its estimate", tint: "--f1" }];
     const svg = (fixed) => {
       const full = fixed || Math.max(330, Math.min(plots.clientWidth || 900, 1000)), across = full > 600 ? 3 : 1, width = full / across, height = 270;
       const legend = key(lines.map((l) => ({ ...l, tint: css(l.tint) })), full);
-      const inner = axes.map((axis, i) => {
-        const size = [axis.truth.map((v) => (v === null ? null : Math.abs(v))), axis.error];
-        const [low, high] = padded(extent(size.map((list) => list.map((v) => (v > 0 ? v : null))), () => true) ?? [0.1, 1], true);
-        return panel({ width, height, left: (i % across) * width, top: legend.height + Math.floor(i / across) * height, title: `d, ${axis.name}`,
-          x: { low: 0, high: t[t.length - 1], label: "time", unit: "s" }, y: { low: Math.max(low, high / 1e6), high, log: true, label: "acceleration", unit: "m/s²" },
-          series: size.map((y, k) => ({ x: t, y, tint: css(lines[k].tint), width: 1.2 })).reverse() });
-      });
+      const inner = axes.map((axis, i) => panel({ width, height, left: (i % across) * width, top: legend.height + Math.floor(i / across) * height, title: `d, ${axis.name}`,
+        x: { low: span_s[0], high: span_s[1], log: true, label: "time", unit: "s" }, y: { low: axis.range[0], high: axis.range[1], log: true, label: "acceleration", unit: "m/s²" },
+        series: [axis.truth, axis.error].map((y, k) => ({ x: t, y, tint: css(lines[k].tint), width: 1.5 })) }));
       return picture(full, legend.height + Math.ceil(axes.length / across) * height, legend.inner + inner.join(""));
     };
-    exports(tools, "learning_curve", () => [["time [s]", ...axes.flatMap((a) => [`true d ${a.name} [m/s²]`, `error of d ${a.name} [m/s²]`])], ...t.map((at, i) => [at, ...axes.flatMap((a) => [a.truth[i], a.error[i]])])], () => svg(900));
+    exports(tools, "learning_curve", () => [["time [s]", ...axes.flatMap((a) => [`size of d ${a.name} [m/s²]`, `error of d ${a.name} [m/s²]`])], ...t.map((at, i) => [at, ...axes.flatMap((a) => [a.truth[i], a.error[i]])])], () => svg(900));
     return () => { plots.innerHTML = svg(0); };
   };
 
   const consistency = (figure, study) => {
     const plots = figure.querySelector(".plots"), tools = figure.querySelector(".tools"), readout = figure.querySelector(".readout");
-    const filters = study.filters.map((f, index) => ({ ...f, index })).filter((f) => f.series && f.series.nees.length);
+    const filters = study.filters.map((f, index) => ({ ...f, index })).filter((f) => f.series && f.series.nees.t.length + f.series.nis.t.length);
     if (filters.length === 0) return () => {};
     const shown = filters.map(() => true);
     let live = [];
     const kinds = [["nees", "NEES / states"], ["nis", "NIS / rows"]];
-    const times = timesOf(filters);
-    const data = Object.fromEntries(kinds.map(([kind]) => [kind, filters.map((f) => aligned(times, f, f.series[kind]).map((v) => (v > 0 ? v : null)))]));
+    const onTimes = (times, { t, mean }) => {
+      const at = new Map(t.map((time, i) => [time, mean[i]]));
+      return times.map((time) => { const v = at.get(time); return v > 0 ? v : null; });
+    };
+    const all = (of) => [...new Set(of.flatMap((kind) => filters.flatMap((f) => f.series[kind].t)))].sort((a, b) => a - b);
+    const times = { nees: all(["nees"]), nis: all(["nis"]) };
+    const data = Object.fromEntries(kinds.map(([kind]) => [kind, filters.map((f) => onTimes(times[kind], f.series[kind]))]));
     const bounds = (kind) => filters.find((f, i) => shown[i] && f[`${kind}_bounds`])?.[`${kind}_bounds`];
-    const range = (kind) => padded(extent([...data[kind].filter((d, i) => shown[i]), bounds(kind) ?? [1]].map((a) => a), (i) => times.length < 3 || i < 2 || times[i] >= study.scored_from_s) ?? [0.1, 10], true);
+    const range = (kind) => {
+      const from = Math.max(times[kind].findIndex((t) => t >= study.scored_from_s), 0);
+      return padded(extent([...data[kind].filter((d, i) => shown[i]).map((d) => d.slice(from)), bounds(kind) ?? [1]], () => true) ?? [0.1, 10], true);
+    };
     const draw = () => {
       const zoom = live[0]?.scales.x;
       forget(live);
       plots.replaceChildren();
       live = kinds.map(([kind, name], index) => timePlot(plots, {
-        study, data: [times, ...data[kind]], range: range(kind), log: true, label: name, unit: "1", height: 230,
+        study, data: [times[kind], ...data[kind]], range: range(kind), log: true, label: name, unit: "1", height: 230,
         last: index === 1, bounds: () => bounds(kind),
         series: filters.map((f, i) => ({ name: f.name, tint: colour(f.index), dash: dash(f.index), width: 1.1, show: shown[i] })),
         hover: (u) => {
           const i = u.cursor.idx;
           if (i === null || i === undefined) return;
-          readout.textContent = `t = ${trimmed(times[i])} s, ${name}: ` + filters.filter((f, k) => shown[k]).map((f) => `${f.name} ${short(data[kind][filters.indexOf(f)][i])}`).join(", ");
+          readout.textContent = `t = ${trimmed(times[kind][i])} s, ${name}: ` + filters.filter((f, k) => shown[k]).map((f) => `${f.name} ${short(data[kind][filters.indexOf(f)][i])}`).join(", ");
         },
       }));
       rezoom(live, zoom);
     };
     filters.forEach((f, i) => toggle(tools, f.name, true, `--f${f.index % 8}`, (on) => { shown[i] = on; draw(); }));
+    const csvRows = () => {
+      const either = all(["nees", "nis"]);
+      const columns = kinds.flatMap(([kind]) => filters.map((f) => onTimes(either, f.series[kind])));
+      return either.map((t, i) => [t, ...columns.map((c) => c[i])]);
+    };
     exports(tools, `${study.scenario}_consistency`,
-      () => [["time [s]", ...kinds.flatMap(([kind]) => filters.map((f) => `${kind} ${f.name}`))], ...times.map((t, i) => [t, ...kinds.flatMap(([kind]) => data[kind].map((d) => d[i]))])],
+      () => [["time [s]", ...kinds.flatMap(([kind]) => filters.map((f) => `${kind} ${f.name}`))], ...csvRows()],
       () => {
         const width = 900, height = 280;
         const legend = key(filters.filter((f, i) => shown[i]).map((f) => ({ name: f.name, tint: colour(f.index), dash: dash(f.index) })), width);
         const inner = kinds.map(([kind, name], k) => {
           const b = bounds(kind), { x, y } = live[k].scales;
-          return panel({ width, height, top: legend.height + k * height, x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low: y.min, high: y.max, log: true, label: name },
+          return panel({ width, height, top: legend.height + k * height, x: { low: x.min, high: x.max, label: "time", unit: "s" }, y: { low: y.min, high: y.max, log: true, label: name }, shades: shadesOf(study),
             bands: b ? [{ low: b[0], high: b[1], tint: css("--band") }] : [],
-            series: filters.map((f, i) => ({ x: times, y: data[kind][i], tint: colour(f.index), dash: dash(f.index) })).filter((s, i) => shown[i]) });
+            series: filters.map((f, i) => ({ x: times[kind], y: data[kind][i], tint: colour(f.index), dash: dash(f.index) })).filter((s, i) => shown[i]) });
         });
         return picture(width, legend.height + 2 * height, legend.inner + inner.join(""));
       });
@@ -624,11 +638,9 @@
       const height = top + line * all.length + 46;
       const ends = all.flatMap((f) => [f.low ?? f.mean, f.high ?? f.mean, f.mean]);
       const largest = Math.max(...ends.map(Math.abs)) || 1;
-      const half = all.map((f) => Math.abs(f.mean)).filter((m) => m > 0);
-      const least = half.length ? Math.min(...half) : largest;
       // Differences of several orders of magnitude: linear about zero, logarithmic beyond.
-      const wide = largest / least > 50;
-      const to = wide ? (v) => Math.asinh(v / (0.5 * least)) : (v) => v;
+      const within = study.linear_within[study.errors.findIndex((e) => e[0] === quantities[chosen][0])], wide = within !== null;
+      const to = wide ? (v) => Math.asinh(v / within) : (v) => v;
       const low = Math.min(0, ...ends.map(to)), high = Math.max(0, ...ends.map(to));
       const pad = 0.05 * (high - low);
       const px = (v) => left + ((to(v) - low + pad) / (high - low + 2 * pad)) * (width - left - right);
@@ -638,7 +650,7 @@
       let at = ticks(low - pad, high + pad, width > 600 ? 7 : 4);
       if (wide) {
         const candidates = [0];
-        for (let k = Math.floor(Math.log10(least)); k <= Math.log10(largest) + 0.5; k += 1) candidates.push(10 ** k, -(10 ** k));
+        for (let k = Math.floor(Math.log10(2 * within)); k <= Math.log10(largest) + 0.5; k += 1) candidates.push(10 ** k, -(10 ** k));
         at = [];
         for (const v of candidates) {
           const x = px(v);

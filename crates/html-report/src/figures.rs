@@ -22,8 +22,8 @@ const NUMBERS: usize = 400_000;
 /// Most numbers of single runs: some 1.8 MB.
 const RUN_NUMBERS: usize = 450_000;
 
-/// Curves of a filter: three quantities, three axes, three kinds; NEES, NIS and three of q.
-const CURVES: usize = 32;
+/// Curves of a filter: three quantities, three axes, three kinds; three of q.
+const CURVES: usize = 30;
 
 /// Two-sided probability of bounds and intervals.
 const CONFIDENCE: f64 = 0.95;
@@ -52,7 +52,10 @@ pub(crate) struct Figures {
     /// What `tune` tried, with the first case of a world.
     pub search: Vec<Search>,
     pub forest: Vec<Forest>,
+    /// Quantity and unit.
     pub errors: Vec<[&'static str; 2]>,
+    /// For each of `errors`, where the differences span orders of magnitude: within so much of zero their axis is linear.
+    pub linear_within: Vec<Option<f64>>,
 }
 
 #[derive(Serialize)]
@@ -61,7 +64,9 @@ pub(crate) struct FilterFigures {
     pub series: Option<Series>,
     pub kept: Option<KeptRuns>,
     pub window: Option<Window>,
+    /// Of the mean over the runs at one epoch.
     pub nees_bounds: Option<[f64; 2]>,
+    /// Of the means over time that the series has.
     pub nis_bounds: Option<[f64; 2]>,
     pub runs: u32,
     /// RMSE of each run with a result, ascending, for each of `errors`.
@@ -107,6 +112,7 @@ fn figures_of(folder: &Folder, study: &StudyFacts, index: usize, room: [usize; 2
         filters.push(filter_figures(folder, study, row, room)?);
     }
     let paired = folder.paired(study);
+    let forest: Vec<Forest> = paired.iter().filter_map(|row| forest(row)).collect();
     let file = folder.path(study)?;
     let first = !folder
         .manifest
@@ -129,7 +135,8 @@ fn figures_of(folder: &Folder, study: &StudyFacts, index: usize, room: [usize; 2
         } else {
             Vec::new()
         },
-        forest: paired.iter().filter_map(|row| forest(row)).collect(),
+        linear_within: ERRORS.iter().map(|(_, name, _)| linear_within(&forest, name)).collect(),
+        forest,
         errors: ERRORS.iter().map(|(_, name, unit)| [*name, *unit]).collect(),
     })
 }
@@ -145,8 +152,9 @@ fn filter_figures(
     let series = epochs.as_ref().and_then(|epochs| series(epochs, points));
     let runs = folder.runs(study, name);
     let finished = runs.iter().filter(|r| r.count("failed") == 0).count();
-    let nis_bounds = match series.as_ref().and_then(|s| s.residual_rows) {
-        Some(rows) if finished > 0 => Some(mean_chi_square_bounds(finished, rows, CONFIDENCE)?),
+    let means = series.as_ref().and_then(|s| Some((s.residual_rows?, s.nis.epochs)));
+    let nis_bounds = match means {
+        Some((rows, epochs)) if finished > 0 => Some(mean_chi_square_bounds(finished * epochs, rows, CONFIDENCE)?),
         _ => None,
     };
     let sorted = |(column, ..): &(&str, &str, &str)| {
@@ -166,6 +174,18 @@ fn filter_figures(
         runs: study.runs,
         sorted: ERRORS.iter().map(sorted).collect(),
     })
+}
+
+/// Half of the least difference, where the largest is more than fifty times that.
+fn linear_within(forest: &[Forest], quantity: &str) -> Option<f64> {
+    let rows = || forest.iter().filter(|f| f.quantity == quantity);
+    let means = rows().map(|f| f.mean.abs()).filter(|m| *m > 0.0);
+    let ends = rows()
+        .flat_map(|f| [Some(f.mean), f.low, f.high])
+        .flatten()
+        .map(f64::abs);
+    let (least, largest) = (means.min_by(f64::total_cmp)?, ends.max_by(f64::total_cmp)?);
+    (largest > 50.0 * least).then_some(0.5 * least)
 }
 
 /// A row of `paired.csv` with its interval, or where it tells none that of Student's t about the mean over the runs.

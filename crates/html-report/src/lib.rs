@@ -4,8 +4,8 @@
 //! `epochs/*.csv`, and where they are there `run_errors/*.csv`, `paths/*.csv`, `phases.csv`, `requirements.csv`, `search.csv`), so that a folder that somebody has sent gives the same page. It asks no host for anything.
 //!
 //! Start reading at [`html`]; [`Verdict`] says which filter is best and how surely, [`drawn`] draws the same figures as
-//! files. Inside, `figures` gathers what is drawn, `series` thins curves over time, `window` sums what
-//! the page makes errors of any stretch of time of, `pack` writes numbers short, and `page` fills the template.
+//! files. Inside, `figures` gathers what is drawn, `series` thins curves over time, `learning` those of `reproduce`, `window` sums
+//! what the page makes errors of any stretch of time of, `pack` writes numbers short, and `page` fills the template.
 
 mod drawn;
 mod error;
@@ -13,6 +13,7 @@ mod events;
 mod figures;
 mod folder;
 mod kept;
+mod learning;
 mod matrix;
 mod number;
 mod pack;

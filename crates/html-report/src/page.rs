@@ -9,6 +9,7 @@ use crate::ReportError;
 use crate::figures::{self, Figures, FilterFigures};
 use crate::folder::{Folder, Manifest, Row, StudyFacts};
 use crate::number::short;
+use crate::series::{Means, Series};
 use crate::verdict::{RunValues, Verdict};
 
 /// Worst runs listed of each filter.
@@ -67,6 +68,9 @@ struct Section {
     worst: Vec<Worst>,
     notes: Vec<String>,
     every: usize,
+    /// Epochs of which each point of the NEES is a mean.
+    nees_epochs: usize,
+    nis_epochs: usize,
     has_curves: bool,
     has_events: bool,
     drawn_events: bool,
@@ -160,6 +164,10 @@ fn section(folder: &Folder, study: &StudyFacts, figures: &Figures) -> Result<Sec
         .iter()
         .filter_map(|f| Some(f.series.as_ref()?.every))
         .max();
+    let epochs = |of: fn(&Series) -> &Means| {
+        let drawn = figures.filters.iter().filter_map(|f| f.series.as_ref());
+        drawn.map(|series| of(series).epochs).max().unwrap_or(1)
+    };
     let any = |has: fn(&FilterFigures) -> bool| figures.filters.iter().any(has);
     Ok(Section {
         has_runs: any(|f| f.kept.is_some()),
@@ -202,6 +210,8 @@ fn section(folder: &Folder, study: &StudyFacts, figures: &Figures) -> Result<Sec
             .collect(),
         notes: study.notes.clone(),
         every: every.unwrap_or(1),
+        nees_epochs: epochs(|series| &series.nees),
+        nis_epochs: epochs(|series| &series.nis),
         has_curves: every.is_some(),
         has_events: !figures.events.is_empty(),
         drawn_events: figures.events.iter().any(|e| e.drawn),
@@ -279,8 +289,9 @@ fn badges(row: &Row) -> Badges {
         };
         marks.push(Mark {
             good,
+            // Bounds stay on one line.
             text: format!(
-                "NEES {} {place} {}–{}",
+                "NEES {} {place} {}\u{2060}–\u{2060}{}",
                 short(Some(nees)),
                 short(Some(low)),
                 short(Some(high))

@@ -4,9 +4,9 @@ use askama::Template;
 use serde::Serialize;
 
 use crate::ReportError;
-use crate::folder::{Epochs, Row, over_time, table};
+use crate::folder::{Row, over_time, table};
+use crate::learning::{self, Learning};
 use crate::number::short;
-use crate::pack::pack;
 
 /// Name of the table that makes a folder one of `reproduce`.
 pub(crate) const TABLE: &str = "reproduce.csv";
@@ -48,22 +48,6 @@ struct Data {
     learning: Option<Learning>,
 }
 
-/// The true acceleration and the error of its estimate, m/s2, by axis.
-#[derive(Serialize)]
-struct Learning {
-    t: Vec<Option<f64>>,
-    axes: Vec<LearningAxis>,
-}
-
-#[derive(Serialize)]
-struct LearningAxis {
-    name: &'static str,
-    #[serde(serialize_with = "pack")]
-    truth: Vec<Option<f64>>,
-    #[serde(serialize_with = "pack")]
-    error: Vec<Option<f64>>,
-}
-
 pub(crate) fn render(folder: &std::path::Path) -> Result<String, ReportError> {
     let rows = table(
         folder,
@@ -72,7 +56,7 @@ pub(crate) fn render(folder: &std::path::Path) -> Result<String, ReportError> {
     )?;
     let required = rows.iter().filter(|r| r.count("required") > 0);
     let missed = required.clone().filter(|r| r.text("verdict") == "fails").count();
-    let learning = over_time(folder, "learning_curve.csv")?.as_ref().and_then(learning);
+    let learning = learning(folder)?;
     let data = [Data {
         id: "s0",
         scenario: "reproduce",
@@ -120,17 +104,9 @@ fn line(row: &Row) -> Line {
     }
 }
 
-fn learning(file: &Epochs) -> Option<Learning> {
-    let column = |name: String| file.column(&name).map(<[_]>::to_vec);
-    let axis = |name: &'static str| {
-        Some(LearningAxis {
-            name,
-            truth: column(format!("d_{name}_m_s2"))?,
-            error: column(format!("rms_error_{name}_m_s2"))?,
-        })
-    };
-    Some(Learning {
-        t: column("t_s".to_owned())?,
-        axes: ["x", "y", "z"].into_iter().filter_map(axis).collect(),
-    })
+/// The learning curve; `None` when the folder has none.
+pub(crate) fn learning(folder: &std::path::Path) -> Result<Option<Learning>, ReportError> {
+    Ok(over_time(folder, "learning_curve.csv")?
+        .as_ref()
+        .and_then(learning::learning))
 }

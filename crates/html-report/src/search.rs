@@ -12,6 +12,10 @@ pub(crate) struct Search {
     pub objective: [String; 2],
     pub parameters: Vec<Parameter>,
     pub tries: Vec<Try>,
+    /// Index of the feasible candidate of the least error.
+    pub best: Option<usize>,
+    /// Index of the filter as it was given.
+    pub given: Option<usize>,
 }
 
 #[derive(Debug, PartialEq, Serialize)]
@@ -49,13 +53,19 @@ fn search(rows: &[&Row]) -> Option<Search> {
             })
         })
         .collect();
-    let tries = rows.iter().map(|row| Try {
-        values: named(row.text("values"))
-            .filter_map(|(_, value)| value.parse().ok())
-            .collect(),
-        error: row.number("value"),
-        feasible: row.count("feasible") > 0,
-    });
+    let tries: Vec<Try> = rows
+        .iter()
+        .map(|row| Try {
+            values: named(row.text("values"))
+                .filter_map(|(_, value)| value.parse().ok())
+                .collect(),
+            error: row.number("value"),
+            feasible: row.count("feasible") > 0,
+        })
+        .collect();
+    let positive = |index: &usize| tries[*index].error.filter(|e| *e > 0.0);
+    let with_error = || (0..tries.len()).filter(|index| positive(index).is_some());
+    let feasible = with_error().filter(|index| tries[*index].feasible);
     let unit = match first.text("objective") {
         "velocity" => "m/s",
         "acceleration" => "m/s²",
@@ -64,7 +74,14 @@ fn search(rows: &[&Row]) -> Option<Search> {
     Some(Search {
         filter: first.text("filter").to_owned(),
         objective: [first.text("objective").to_owned(), unit.to_owned()],
-        tries: tries.collect(),
+        best: feasible.min_by(|a, b| {
+            f64::total_cmp(
+                &positive(a).unwrap_or(f64::INFINITY),
+                &positive(b).unwrap_or(f64::INFINITY),
+            )
+        }),
+        given: with_error().find(|index| tries[*index].values.is_empty()),
+        tries,
         parameters,
     })
     .filter(|s| !s.parameters.is_empty())

@@ -6,6 +6,11 @@ use crate::folder::Epochs;
 use crate::number::significant;
 use crate::pack::pack;
 
+/// Most means over time. Innovations are independent from epoch to epoch, and errors forget quickly: of single epochs a figure
+/// shows a bar alone.
+const NEES: usize = 240;
+const NIS: usize = 120;
+
 /// Significant digits of what a figure draws.
 const DIGITS: usize = 4;
 
@@ -18,15 +23,24 @@ pub(crate) struct Series {
     pub t: Vec<f64>,
     /// Position, velocity, acceleration, as far as the file has them.
     pub quantities: Vec<QuantitySeries>,
-    #[serde(serialize_with = "pack")]
-    pub nees: Vec<Option<f64>>,
-    #[serde(serialize_with = "pack")]
-    pub nis: Vec<Option<f64>>,
+    pub nees: Means,
+    pub nis: Means,
     /// Mean over the runs of the root of the jerk density in axes N, m/s^2.5; `None` where the filter tells none.
     pub jerk_root: Option<[Column; 3]>,
     /// Degrees of freedom of the NIS, where they are the same at all epochs.
     #[serde(skip)]
     pub residual_rows: Option<usize>,
+}
+
+/// Means over so many epochs each.
+#[derive(Debug, Serialize)]
+pub(crate) struct Means {
+    /// Epochs with a value that each is a mean of.
+    pub epochs: usize,
+    /// Mean of their times, s.
+    pub t: Vec<f64>,
+    #[serde(serialize_with = "pack")]
+    pub mean: Vec<Option<f64>>,
 }
 
 #[derive(Debug, Serialize)]
@@ -36,7 +50,7 @@ pub(crate) struct QuantitySeries {
     pub axes: Vec<AxisSeries>,
 }
 
-/// Mean error, sample sigma, estimated sigma.
+/// Mean error, sample sigma, estimated sigma; of each bucket the extremes of the first, root mean squares of the others.
 #[derive(Debug, Serialize)]
 pub(crate) struct AxisSeries {
     pub axis: String,
@@ -81,13 +95,19 @@ pub(crate) fn series(epochs: &Epochs, points: usize) -> Option<Series> {
             .iter()
             .filter_map(|h| h.strip_prefix(prefix)?.strip_suffix(suffix))
             .map(|axis| {
-                let of = |kind: &str| column(&format!("{kind}{}{axis}{suffix}", &prefix["mean".len()..]));
+                let named = |kind: &str| format!("{kind}{}{axis}{suffix}", &prefix["mean".len()..]);
+                let sigma = |kind: &str| {
+                    epochs
+                        .column(&named(kind))
+                        .map(|c| rooted(c, every))
+                        .unwrap_or_default()
+                };
                 AxisSeries {
                     column: format!("{}{axis}{suffix}", &prefix["mean_".len()..]),
                     axis: axis.to_owned(),
-                    mean: of("mean"),
-                    sample: of("sample_sigma"),
-                    estimated: of("est_sigma"),
+                    mean: column(&named("mean")),
+                    sample: sigma("sample_sigma"),
+                    estimated: sigma("est_sigma"),
                 }
             })
             .filter(|a| a.mean.iter().any(Option::is_some))
@@ -100,11 +120,29 @@ pub(crate) fn series(epochs: &Epochs, points: usize) -> Option<Series> {
         every,
         t: thinned_time(&time, every),
         quantities: quantities.collect(),
-        nees: column("nees"),
-        nis: column("nis"),
+        nees: means(&time, epochs.column("nees").unwrap_or_default(), NEES),
+        nis: means(&time, epochs.column("nis").unwrap_or_default(), NIS),
         jerk_root: told.then_some(jerk_root),
         residual_rows: residual_rows(epochs),
     })
+}
+
+/// Means over equally many epochs that have a value; epochs at the end that are too few for another are left out.
+///
+/// * `most`: means.
+fn means(time: &[f64], column: &[Option<f64>], most: usize) -> Means {
+    let there = time.iter().zip(column).filter_map(|(t, v)| Some((*t, (*v)?)));
+    let there: Vec<(f64, f64)> = there.collect();
+    let epochs = there.len().div_ceil(most).max(1);
+    let mean = |part: &[(f64, f64)], of: fn(&(f64, f64)) -> f64| part.iter().map(of).sum::<f64>() / epochs as f64;
+    Means {
+        epochs,
+        t: there.chunks_exact(epochs).map(|part| mean(part, |p| p.0)).collect(),
+        mean: there
+            .chunks_exact(epochs)
+            .map(|part| Some(significant(mean(part, |p| p.1), DIGITS)))
+            .collect(),
+    }
 }
 
 /// Rows of the residual at the epochs that have a NIS; `None` when they are not always the same number.
@@ -148,6 +186,23 @@ fn thinned(column: &[Option<f64>], every: usize) -> Vec<Option<f64>> {
     column.chunks(every).flat_map(extremes).map(round).collect()
 }
 
+/// Root mean squares over the halves of each bucket: the extremes of a sigma over few runs are those of chance.
+fn rooted(column: &[Option<f64>], every: usize) -> Vec<Option<f64>> {
+    if every == 1 {
+        return thinned(column, every);
+    }
+    let root = |half: &[Option<f64>]| {
+        let squares: Vec<f64> = half.iter().flatten().map(|v| v * v).collect();
+        let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+        (!squares.is_empty()).then(|| significant(mean.sqrt(), DIGITS))
+    };
+    let halves = |bucket: &[Option<f64>]| {
+        let (first, second) = bucket.split_at(bucket.len().div_ceil(2));
+        [root(first), root(second)]
+    };
+    column.chunks(every).flat_map(halves).collect()
+}
+
 /// Times of the two points of each bucket: its first epoch and its middle one.
 fn thinned_time(time: &[f64], every: usize) -> Vec<f64> {
     if every == 1 {
@@ -166,6 +221,18 @@ mod tests {
     use super::*;
 
     #[test]
+    fn means_are_of_as_many_epochs_each() {
+        let time: Vec<f64> = (0..300).map(f64::from).collect();
+        // Every third epoch has none.
+        let column: Vec<Option<f64>> = (0..300).map(|i| (i % 3 > 0).then(|| f64::from(i % 3))).collect();
+        let found = means(&time, &column, 120);
+        assert_eq!((found.epochs, found.t.len()), (2, 100));
+        assert!(found.mean.iter().all(|m| *m == Some(1.5)));
+        assert_eq!(found.t[..2], [1.5, 4.5]);
+        assert!(means(&time, &[], 120).t.is_empty());
+    }
+
+    #[test]
     fn extremes_survive_in_their_order() {
         let values = [1.0, 9.0, 2.0, 5.0, 0.5, 4.0].map(Some);
         assert_eq!(thinned(&values, 3), [Some(1.0), Some(9.0), Some(5.0), Some(0.5)]);
@@ -173,6 +240,10 @@ mod tests {
             thinned(&[None, Some(3.0), None, None], 2),
             [Some(3.0), Some(3.0), None, None]
         );
+        let sigmas = [3.0, 4.0, 1.0, 0.0, 7.0, 2.0].map(Some);
+        let root = |v: f64| Some(significant(v.sqrt(), DIGITS));
+        assert_eq!(rooted(&sigmas, 4), [root(12.5), root(0.5), Some(7.0), Some(2.0)]);
+        assert_eq!(rooted(&[None, None, Some(1.0)], 3), [None, Some(1.0)]);
         assert_eq!(thinned_time(&[0.0, 1.0, 2.0, 3.0], 3), [0.0, 1.0, 3.0, 3.0]);
     }
 }

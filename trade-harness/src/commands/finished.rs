@@ -1,6 +1,6 @@
 //! What becomes of finished studies: files and tables.
 
-use serde_json::{Value, json};
+use serde_json::json;
 use study::{Calibration, Models, Output, Plan, Study, StudyResult, Summary, Workers, chain};
 
 use super::files::{Report, Told};
@@ -11,6 +11,7 @@ use crate::HarnessError;
 use crate::claims;
 use crate::format::wrapped;
 use crate::output::OutputFolder;
+use crate::report::column::fields;
 use crate::report::summary::COLUMNS;
 use crate::report::table;
 use crate::requirements;
@@ -186,7 +187,7 @@ fn print(
         }
         told.push(json!({
             "scenario": world.name, "case": study.case, "runs": study.runs, "seed": study.spec.seed,
-            "notes": world.notes, "filters": rows.iter().map(fields).collect::<Vec<_>>(),
+            "notes": world.notes, "filters": rows.iter().map(|row| fields(COLUMNS, row)).collect::<Vec<_>>(),
             "claims": verdicts.iter().map(|v| json!({
                 "filter": v.claim.filter, "column": v.claim.column, "value": v.value, "holds": v.holds(), "text": v.claim.text,
             })).collect::<Vec<_>>(),
@@ -203,13 +204,4 @@ fn print(
     out.tell("calibration", &report.calibration)?;
     closing(folder, files, out)?;
     Ok(missed)
-}
-
-/// A row of `summary.csv` by the names of its columns.
-fn fields(row: &Summary) -> serde_json::Map<String, Value> {
-    let cells = COLUMNS.iter().map(|column| {
-        let value = serde_json::to_value(column.cell(row)).unwrap_or_default();
-        (column.name.to_owned(), value)
-    });
-    cells.collect()
 }

@@ -1,13 +1,12 @@
 //! `best.csv` and `best.md`: every filter at its own best, the table to decide from.
 
-use std::fmt::Write;
-
 use study::Summary;
 
-use super::column::{self, Column, count, number, text};
+use super::column::{self, Column, count, fields, find, number, text};
+use super::table::shortened;
 use super::timing::TimingRow;
 use crate::HarnessError;
-use crate::format::{self, Align, markdown_table, plain_table};
+use crate::format::{self, Align, markdown_table, plain_table, wrapped};
 use crate::tuning::standing::Objective;
 
 /// What the search says of a filter, beside its judged study.
@@ -135,24 +134,30 @@ impl<'a> Ranking<'a> {
         })
     }
 
-    /// The table for the terminal, without a final newline; values and notes stand below it, a line each.
+    /// The table for the terminal, without a final newline; values and notes stand below it. It fits 80 columns.
     pub fn render(&self) -> String {
-        let cells: Vec<_> = self.cells().collect();
+        let rows: Vec<Row> = self.rows().collect();
+        let cells = rows.iter().map(|row| {
+            let shown = SHOWN.iter().filter_map(|(_, name)| find(COLUMNS, name));
+            let cells = shown.map(|c| c.cell(row).short()).enumerate();
+            cells
+                .map(|(i, cell)| if i == 0 { shortened(&cell, LONGEST) } else { cell })
+                .collect()
+        });
+        plain_table(SHOWN.iter().map(|(heading, _)| *heading), 1, cells) + &about(&rows, true)
+    }
+
+    /// The table with all columns; values and notes stand below it, a line each.
+    pub fn render_wide(&self) -> String {
         let narrow = HEADERS.len() - 2;
-        let rows = cells.iter().map(|row| row[..narrow].to_vec());
-        let mut text = plain_table(&HEADERS[..narrow], 1, rows);
-        for row in &cells {
-            let about: Vec<&str> = row[narrow..]
-                .iter()
-                .map(String::as_str)
-                .filter(|t| !t.is_empty())
-                .collect();
-            if !about.is_empty() {
-                // Writing to a String cannot fail.
-                let _ = write!(text, "\n{}: {}", row[0], about.join("; "));
-            }
-        }
-        text
+        let cells = self.cells().map(|row| row[..narrow].to_vec());
+        let rows: Vec<Row> = self.rows().collect();
+        plain_table(&HEADERS[..narrow], 1, cells) + &about(&rows, false)
+    }
+
+    /// Its rows of `best.csv` by the names of their columns, best first.
+    pub fn told(&self) -> Vec<serde_json::Map<String, serde_json::Value>> {
+        self.rows().map(|row| fields(COLUMNS, &row)).collect()
     }
 
     /// The table in Markdown, with a final newline.
@@ -163,7 +168,41 @@ impl<'a> Ranking<'a> {
     }
 }
 
-/// Headings of the table; the objective's column of the given filter tells by how much the search helped.
+/// Values and notes of each filter that has any, each after a newline.
+///
+/// * `narrow`: below the table that fits 80 columns, which has no room for the filter as given.
+fn about(rows: &[Row], narrow: bool) -> String {
+    let mut text = String::new();
+    for row in rows {
+        let given = row.given.filter(|_| narrow);
+        let given = given.map(|given| format!("untuned {}", format::number(Some(given))));
+        let told = [row.tuned.clone(), given.unwrap_or_default(), row.notes.clone()];
+        let parts: Vec<String> = told.into_iter().filter(|t| !t.is_empty()).collect();
+        if !parts.is_empty() {
+            let line = format!("{}: {}", row.best.filter, parts.join("; "));
+            text.push('\n');
+            text.push_str(&if narrow { wrapped(&line) } else { line });
+        }
+    }
+    text
+}
+
+/// Headings of the table that fits 80 columns, and the columns of `best.csv` below them.
+const SHOWN: [(&str, &str); 8] = [
+    ("filter", "filter"),
+    ("rank", "rank"),
+    ("pos RMSE\n[m]", "pos_rmse_m"),
+    ("vel RMSE\n[m/s]", "vel_rmse_m_s"),
+    ("acc RMSE\n[m/s2]", "acc_rmse_m_s2"),
+    ("NEES", "nees"),
+    ("failed", "failed"),
+    ("diver-\nged", "diverged"),
+];
+
+/// Longest name of a filter in it.
+const LONGEST: usize = 17;
+
+/// Headings of the table with all columns; the objective's column of the given filter tells by how much the search helped.
 const HEADERS: [&str; 12] = [
     "filter",
     "pos RMSE\n[m]",
@@ -183,8 +222,14 @@ fn is_text(column: usize) -> bool {
     column == 0 || column >= HEADERS.len() - 2
 }
 
-/// How to read the table.
+/// How to read the table that fits 80 columns.
 pub const LEGEND: &str = "\
+rank: place by what the filters were tuned for; the other errors come with it;
+NEES: 1 on average when consistent; untuned: RMSE of the filter as named to
+--filters, in the same worlds. More columns: --wide, best.md and best.csv";
+
+/// How to read the table with all columns.
+pub const WIDE_LEGEND: &str = "\
 in brackets: place by what the filters were tuned for, the other errors being what comes with it; NEES, NIS: 1 on average when consistent
 objective as given: RMSE of the filter as named to --filters, in the same worlds
 nav: time in the filter's fmi2DoStep";

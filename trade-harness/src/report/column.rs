@@ -139,6 +139,15 @@ pub(crate) fn find<'c, T>(columns: &'c [Column<T>], name: &str) -> Option<&'c Co
     columns.iter().find(|c| c.name == name)
 }
 
+/// A row by the names of its columns.
+pub(crate) fn fields<T>(columns: &[Column<T>], row: &T) -> serde_json::Map<String, serde_json::Value> {
+    let cells = columns.iter().map(|column| {
+        let value = serde_json::to_value(column.cell(row)).unwrap_or_default();
+        (column.name.to_owned(), value)
+    });
+    cells.collect()
+}
+
 /// A CSV file of these columns.
 ///
 /// # Errors

@@ -59,20 +59,20 @@ pub fn render(rows: &[Summary]) -> String {
         let shown = SHOWN.iter().filter_map(|(_, name)| find(COLUMNS, name));
         let mut cells: Vec<String> = shown.map(|c| c.cell(row).short()).collect();
         if let Some(label) = cells.first_mut() {
-            *label = shortened(label);
+            *label = shortened(label, LONGEST);
         }
         cells
     });
     plain_table(SHOWN.iter().map(|(heading, _)| *heading), 1, cells)
 }
 
-/// A label without its middle, where it is too long.
-fn shortened(label: &str) -> String {
+/// A label without its middle, where it has more letters than this.
+pub(super) fn shortened(label: &str, longest: usize) -> String {
     let letters: Vec<char> = label.chars().collect();
-    if letters.len() <= LONGEST {
+    if letters.len() <= longest {
         return label.to_owned();
     }
-    let (begin, end) = (LONGEST / 2, letters.len() - (LONGEST - LONGEST / 2 - 1));
+    let (begin, end) = (longest / 2, letters.len() - (longest - longest / 2 - 1));
     letters[..begin].iter().chain(&['…']).chain(&letters[end..]).collect()
 }
 

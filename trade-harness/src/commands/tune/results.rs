@@ -1,5 +1,6 @@
 //! What `tune` leaves behind: the tuned sets, the judged study, and every filter at its own best.
 
+use serde_json::json;
 use study::{Assignment, Models, Plan, Study, StudyResult, World};
 
 use super::super::files::Report;
@@ -8,6 +9,7 @@ use super::super::shared::{Verdict, closing};
 use super::contest::Contest;
 use crate::HarnessError;
 use crate::cli::TuneArgs;
+use crate::format::wrapped;
 use crate::output::OutputFolder;
 use crate::report::best::{self, Entry, Ranking};
 use crate::report::searched::{self, settings};
@@ -85,7 +87,7 @@ impl Done {
         let mut text = "# Every filter at its own best\n".to_owned();
         for (contest, ranking) in self.contests.iter().zip(rankings) {
             let heading = heading(&contest.world, args);
-            let legend = best::LEGEND.replace('\n', "\n\n");
+            let legend = best::WIDE_LEGEND.replace('\n', "\n\n");
             text.push_str(&format!(
                 "\n## {}\n\n{heading}\n\n{}\n{legend}\n",
                 contest.world.name,
@@ -104,15 +106,19 @@ impl Done {
         out: &mut Out<'_>,
     ) -> Result<Verdict, HarnessError> {
         let report = Report::new(&[], &self.studies, &self.results, &[])?;
+        let mut told = Vec::new();
         for (contest, ranking) in self.contests.iter().zip(self.rankings(&report, options)) {
-            let heading = heading(&contest.world, args);
-            out.say(&format!(
-                "{}: {heading}\n{}\n{}\n",
-                contest.world.name,
-                ranking.render(),
-                best::LEGEND
-            ))?;
+            let heading = format!("{}: {}", contest.world.name, heading(&contest.world, args));
+            out.say(&if args.wide {
+                format!("{heading}\n{}\n{}\n", ranking.render_wide(), best::WIDE_LEGEND)
+            } else {
+                format!("{}\n{}\n{}\n", wrapped(&heading), ranking.render(), best::LEGEND)
+            })?;
+            told.push(json!({
+                "scenario": contest.world.name, "objective": options.objective.name(), "filters": ranking.told(),
+            }));
         }
+        out.tell("ranking", told)?;
         out.tell("tuned", &self.file)?;
         closing(folder, files, out)?;
         Ok(Verdict::Done)
