@@ -117,6 +117,64 @@ fn a_varied_run_is_replayed_with_its_own_values() {
     );
 }
 
+/// What a sensor said is what it says of the truth, with its noise; and no file has a column that nothing documents.
+#[test]
+fn a_replay_holds_what_the_sensors_said_and_every_column_is_documented() {
+    use trade_harness::report::{columns, histories::is_named};
+    let folder = tempfile::tempdir().unwrap();
+    let documented = |file: &str, path: &Path| {
+        let all = columns::all();
+        let ours = all
+            .iter()
+            .find(|own| own.file == file)
+            .unwrap_or_else(|| panic!("{file}"));
+        let header = csv::Reader::from_path(path).unwrap().headers().unwrap().clone();
+        for name in &header {
+            assert!(
+                ours.columns.iter().any(|[own, ..]| is_named(own, name)),
+                "{file}: {name}"
+            );
+        }
+    };
+    for (world, filters, set) in [
+        ("leo_venting", "snc,milton", "fmu-truth.lidar.dropout_probability=0.2"),
+        ("formation", "snc", "fmu-truth.metrology.dropout_probability=0.2"),
+    ] {
+        let out = folder.path().join(world);
+        let what = ["--filters", filters, "--set", set, "--scenario", world];
+        let runs = ["compare", "--runs", "2", "--duration", "500", "--out", text(&out)];
+        harness_ok(&[&runs[..], &what[..]].concat());
+        for (name, _) in results(&out).iter().filter(|(name, _)| name.ends_with(".csv")) {
+            let file = name
+                .split_once('/')
+                .map_or(name.clone(), |(kind, _)| format!("{kind}/*.csv"));
+            documented(&file, &out.join(name));
+        }
+        let replayed = folder.path().join("replay.csv");
+        harness_ok(&["replay", text(&out), "--run", "1", "--out", text(&replayed)]);
+        documented("replay.csv", &replayed);
+
+        let number = |row: &std::collections::HashMap<String, String>, name: &str| row[name].parse::<f64>().unwrap();
+        let (valid, first, sigma) = match world {
+            "leo_venting" => ("meas_lidar_valid", "meas_lidar_range_m", 0.08),
+            _ => ("meas_metrology_valid", "meas_metrology_rho_lvlh_1_m", 0.01),
+        };
+        let rows = read_csv(&replayed);
+        let (seen, missed): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row[valid] == "1");
+        assert!(missed.len() > rows.len() / 10 && missed.iter().all(|row| row[valid] == "0" && row[first].is_empty()));
+        let squares = seen.iter().map(|row| {
+            let position = ["x", "y", "z"].map(|axis| number(row, &format!("truth_pos_{axis}_m")));
+            let predicted = match world {
+                "leo_venting" => position.iter().map(|x| x * x).sum::<f64>().sqrt(),
+                _ => position[0],
+            };
+            (number(row, first) - predicted).powi(2)
+        });
+        let deviation = (squares.sum::<f64>() / seen.len() as f64).sqrt();
+        assert!((deviation / sigma - 1.0).abs() < 0.15, "{world}: {deviation}");
+    }
+}
+
 /// A study is made again from its file and from its manifest, cases of a grid and all; another FMU or mission is told.
 #[test]
 fn a_study_is_made_again_to_the_last_byte_and_what_has_changed_is_told() {

@@ -73,7 +73,7 @@ pub use phase_summary::{ChiSquareSummary, ErrorSummary, PhaseSummary};
 pub use plan::{ALL, Isolation, Output, Plan, check_case, scheme_name};
 pub use record::{QUANTITIES, Quantity, Record};
 pub use requirement::Requirement;
-pub use run::{Ending, Failure, RunReport, SlaveTime, call_time, rehearse, run_once, seat};
+pub use run::{Ending, Failure, RunReport, SlaveTime, call_time, rehearse, run_once, run_recorded, seat};
 pub use samples::{Estimate, StatusItems, TruthSample};
 pub use score::score;
 pub use shard::Shard;

@@ -203,6 +203,47 @@ impl CalculatedReader {
     }
 }
 
+/// Reads what the sensors have said at the newest sample.
+pub(crate) struct MeasurementReader {
+    sample: Sample,
+    handles: Vec<Element>,
+}
+
+/// Where an element of a measurement stands.
+enum Element {
+    Number(Handle<f64>),
+    Truth(Handle<bool>),
+    /// A world of somebody else need not have every sensor.
+    Absent,
+}
+
+impl MeasurementReader {
+    /// * `names`: variables of the truth, Real or Boolean.
+    pub(crate) fn new(system: &System, truth: SlaveId, names: &[String]) -> Result<Self, StudyError> {
+        let mut probe = system.probe(truth)?;
+        let mut element = |name: &String| match probe.boolean(name) {
+            Ok(handle) => Element::Truth(handle),
+            Err(_) => probe.real(name).map_or(Element::Absent, Element::Number),
+        };
+        let handles = names.iter().map(&mut element).collect();
+        Ok(Self {
+            sample: probe.sample(),
+            handles,
+        })
+    }
+
+    /// In the order of the names, a truth value as 0 or 1, NaN for what it does not have; `None` when the truth cannot be read.
+    pub(crate) fn values(&mut self, context: &mut StepContext<'_>) -> Option<Vec<f64>> {
+        context.read(&mut self.sample).ok()?;
+        let value = |element: &Element| match element {
+            Element::Number(handle) => self.sample.get(*handle),
+            Element::Truth(handle) => f64::from(u8::from(self.sample.get(*handle))),
+            Element::Absent => f64::NAN,
+        };
+        Some(self.handles.iter().map(value).collect())
+    }
+}
+
 /// Which sample an estimate belongs to, in the filter's own words.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Tag {

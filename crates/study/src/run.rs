@@ -8,7 +8,7 @@ use cosim::{Causality, RunOptions, Scheme, SlaveId, StepContext, System, Value};
 use crate::error::{StudyError, chain};
 use crate::history::History;
 use crate::participant::Participant;
-use crate::readers::{CalculatedReader, EstimateReader, TruthReader, units_unsaid};
+use crate::readers::{CalculatedReader, EstimateReader, MeasurementReader, TruthReader, units_unsaid};
 use crate::samples::{Estimate, SAME_TIME, TruthSample};
 use crate::spec::Spec;
 use crate::stop::stop_asked;
@@ -270,10 +270,25 @@ pub fn call_time(spec: &Spec, filter: &Participant) -> Result<Duration, StudyErr
 pub fn run_once(
     spec: &Spec,
     run: u32,
+    observe: impl FnMut(usize, &TruthSample, &Estimate) -> Result<(), String>,
+) -> RunReport {
+    run_recorded(spec, run, &[], |_, _, _| (), observe)
+}
+
+/// As [`run_once`], with what the sensors say.
+///
+/// * `names`: Real and Boolean variables of the truth.
+/// * `measured`: called once for each sample, before any estimate of it, with the first filter of its world, the sample's
+///   ordinal, and their values in the order of the names, a truth value as 0 or 1, NaN for what the truth does not have.
+pub fn run_recorded(
+    spec: &Spec,
+    run: u32,
+    names: &[String],
+    mut measured: impl FnMut(usize, u32, &[f64]),
     mut observe: impl FnMut(usize, &TruthSample, &Estimate) -> Result<(), String>,
 ) -> RunReport {
     if !spec.takes_worlds_apart() {
-        return run_world(spec, run, observe);
+        return run_world(spec, run, names, |count, values| measured(0, count, values), observe);
     }
     let mut whole = RunReport {
         endings: Vec::new(),
@@ -282,7 +297,8 @@ pub fn run_once(
         filter_times: Vec::new(),
     };
     for filter in 0..spec.filters.len() {
-        let own = run_world(&spec.subset(&[filter]), run, |_, truth, estimate| {
+        let of_world = |count, values: &[f64]| measured(filter, count, values);
+        let own = run_world(&spec.subset(&[filter]), run, names, of_world, |_, truth, estimate| {
             observe(filter, truth, estimate)
         });
         whole.endings.extend(own.endings);
@@ -298,6 +314,8 @@ pub fn run_once(
 fn run_world(
     spec: &Spec,
     run: u32,
+    names: &[String],
+    mut measured: impl FnMut(u32, &[f64]),
     mut observe: impl FnMut(usize, &TruthSample, &Estimate) -> Result<(), String>,
 ) -> RunReport {
     let mut report = RunReport {
@@ -306,13 +324,20 @@ fn run_world(
         truth_time: SlaveTime::default(),
         filter_times: vec![SlaveTime::default(); spec.filters.len()],
     };
-    let Coupled {
-        mut system,
-        truth,
-        mut truth_reader,
-        mut seats,
-        drivers: _,
-    } = match couple(spec, run) {
+    let coupled = couple(spec, run).and_then(|coupled| {
+        let recorder = (!names.is_empty()).then(|| MeasurementReader::new(&coupled.system, coupled.truth, names));
+        Ok((coupled, recorder.transpose()?))
+    });
+    let (
+        Coupled {
+            mut system,
+            truth,
+            mut truth_reader,
+            mut seats,
+            drivers: _,
+        },
+        mut recorder,
+    ) = match coupled {
         Ok(coupled) => coupled,
         Err(error) => {
             fail_all(&mut report.endings, None, &chain(&error));
@@ -345,6 +370,9 @@ fn run_world(
             };
             if let Err(message) = history.push(context.time(), sample) {
                 return ControlFlow::Break(message);
+            }
+            if let Some(values) = recorder.as_mut().and_then(|recorder| recorder.values(context)) {
+                measured(number, &values);
             }
         }
         let handed = if spec.scheme == Scheme::Jacobi {

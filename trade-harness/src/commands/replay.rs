@@ -1,11 +1,13 @@
 //! `replay`: one run, sample by sample.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use nalgebra::Vector3;
 
+use interface::ports::{Kind, Port, Role, Shape};
 use study::{
-    Estimate, Plan, Quantity, Record, Spec, Status, StudyError, TruthSample, World, rehearse, run_once, score,
+    Estimate, Plan, Quantity, Record, Spec, Status, StudyError, TruthSample, World, rehearse, run_recorded, score,
 };
 
 use super::list::known;
@@ -43,23 +45,37 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
     };
     let world = spec.world.clone();
     rehearse(&spec)?;
-    let mut lines: Vec<Vec<Vec<String>>> = spec.filters.iter().map(|_| Vec::new()).collect();
+    let measurements = Measurements::of(&world);
+    let mut measured: Vec<BTreeMap<u32, Vec<f64>>> = vec![BTreeMap::new(); spec.filters.len()];
+    let mut lines: Vec<Vec<(u32, Vec<String>)>> = spec.filters.iter().map(|_| Vec::new()).collect();
     let mut diverged: Vec<Option<f64>> = vec![None; spec.filters.len()];
-    let report = run_once(&spec, args.run, |filter, truth, estimate| {
+    let seen = |first: usize, sample, values: &[f64]| {
+        measured[first].insert(sample, values.to_vec());
+    };
+    let report = run_recorded(&spec, args.run, &measurements.names, seen, |filter, truth, estimate| {
         let record = score(&world, truth, estimate)
             .ok_or_else(|| format!("the axes of the results are undefined at {} s", truth.time))?;
         let said = estimate.status == Some(Status::Diverged);
         if said || (record.lost && truth.time >= world.scored_from_s) {
             diverged[filter].get_or_insert(truth.time);
         }
-        lines[filter].push(line(&world, &spec.filters[filter].label, truth, estimate, &record));
+        let cells = line(&world, &spec.filters[filter].label, truth, estimate, &record);
+        lines[filter].push((truth.count, cells));
         Ok(())
     });
 
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(header(&world))?;
-    for record in lines.iter().flatten() {
-        writer.write_record(record)?;
+    writer.write_record(header(&world).into_iter().chain(measurements.columns()))?;
+    for (filter, lines) in lines.iter().enumerate() {
+        // Filters that share a world share its measurements, which stand with the first of them.
+        let own = measured[filter..=filter]
+            .iter()
+            .chain(measured.first())
+            .find(|world| !world.is_empty());
+        for (sample, line) in lines {
+            let values = own.and_then(|world| world.get(sample));
+            writer.write_record(line.iter().cloned().chain(measurements.cells(values)))?;
+        }
     }
     write_whole(&args.out, &finished(writer)?)?;
     for (filter, ending) in spec.filters.iter().zip(&report.endings) {
@@ -80,7 +96,7 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
         .iter()
         .zip(&diverged)
         .map(|(filter, time)| (filter.label.clone(), *time));
-    out.tell("diverged_at_s", told.collect::<std::collections::BTreeMap<_, _>>())?;
+    out.tell("diverged_at_s", told.collect::<BTreeMap<_, _>>())?;
     out.tell("file", &args.out)?;
     out.say(&format!(
         "{} ({} samples)",
@@ -132,6 +148,71 @@ fn of_a_study(args: &ReplayArgs, dir: &Path, folder: &Path) -> Result<Spec, Harn
         spec.filters.retain(|filter| args.labels.contains(&filter.label));
     }
     Ok(spec)
+}
+
+/// Which of a world's outputs are measurements: of the mission's sensors, whether they saw anything and what.
+struct Measurements {
+    /// Scalars of the truth.
+    names: Vec<String>,
+    ports: Vec<&'static Port>,
+}
+
+impl Measurements {
+    fn of(world: &World) -> Self {
+        let told = world.mission.navigation();
+        let sensors = told.sensors.iter().map(|known| known.sensor.name());
+        let sensors: Vec<&str> = sensors.chain(told.accelerometer.map(|_| "accelerometer")).collect();
+        let of_a_sensor = |port: &&Port| {
+            let (sensor, part) = port.name.split_once('.').unwrap_or_default();
+            sensors.contains(&sensor) && !["due", "mean"].contains(&part)
+        };
+        let mut names = Vec::new();
+        let mut ports = Vec::new();
+        for port in interface::ports::of(Role::Sensor).filter(of_a_sensor) {
+            let elements = match port.shape {
+                Shape::Vector(n) => (1..=n).map(|i| format!("{}[{i}]", port.name)).collect(),
+                _ => vec![port.name.to_owned()],
+            };
+            ports.extend(elements.iter().map(|_| port));
+            names.extend(elements);
+        }
+        Self { names, ports }
+    }
+
+    /// `meas_`, the name of the variable and its unit.
+    fn columns(&self) -> impl Iterator<Item = String> {
+        let column = |(name, port): (&String, &&Port)| {
+            let name = name.replace(['.', '['], "_").replace(']', "");
+            let unit = match port.unit(0) {
+                "" => String::new(),
+                unit => format!("_{}", unit.replace('/', "_")),
+            };
+            format!("meas_{name}{unit}")
+        };
+        self.names.iter().zip(&self.ports).map(column)
+    }
+
+    /// Empty where a sensor saw nothing.
+    fn cells(&self, values: Option<&Vec<f64>>) -> Vec<String> {
+        let Some(values) = values else {
+            return vec![String::new(); self.names.len()];
+        };
+        let valid = |sensor: &str| {
+            let name = format!("{sensor}.valid");
+            let place = self.names.iter().position(|own| *own == name);
+            place
+                .and_then(|place| values.get(place))
+                .is_none_or(|valid| *valid > 0.0)
+        };
+        let cell_of = |(port, value): (&&Port, &f64)| {
+            let sensor = port.name.split('.').next().unwrap_or_default();
+            match port.kind {
+                Kind::Boolean if value.is_finite() => format!("{value:.0}"),
+                _ => cell(Some(*value).filter(|value| value.is_finite() && valid(sensor))),
+            }
+        };
+        self.ports.iter().zip(values).map(cell_of).collect()
+    }
 }
 
 /// Truth and estimate in the axes of their variables; error and sigma in those of the results.

@@ -132,6 +132,17 @@ impl FileColumns {
             columns: columns.iter().map(|c| [c.name, c.unit, c.meaning]).collect(),
         }
     }
+
+    /// The columns of a file that are made elsewhere.
+    ///
+    /// * `columns`: name, unit and meaning of each.
+    pub(crate) fn described(file: &'static str, about: &'static str, columns: &[[&'static str; 3]]) -> Self {
+        Self {
+            file,
+            about,
+            columns: columns.to_vec(),
+        }
+    }
 }
 
 /// The column of this name.

@@ -1,11 +1,11 @@
 //! The documentation of every CSV file, from the lists that write them.
 
 use super::column::FileColumns;
-use super::{best, phases, runs, searched, summary, timing};
+use super::{best, histories, phases, runs, searched, summary, timing};
 
-/// The columns of every file that has the same ones in each study.
+/// The columns of every file.
 pub fn all() -> Vec<FileColumns> {
-    vec![
+    let tables = [
         FileColumns::new("summary.csv", "a world, filter and case", summary::COLUMNS),
         FileColumns::new("phases.csv", "a world, filter, case and phase", phases::COLUMNS),
         FileColumns::new(
@@ -27,7 +27,8 @@ pub fn all() -> Vec<FileColumns> {
         FileColumns::new("timing.csv", "a world, filter and case", timing::COLUMNS),
         FileColumns::new("best.csv", "a filter at its own best, by tune", best::COLUMNS),
         FileColumns::new("search.csv", "a candidate of a search, by tune", searched::COLUMNS),
-    ]
+    ];
+    tables.into_iter().chain(histories::all()).collect()
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ pub mod best;
 pub mod column;
 pub mod columns;
 pub mod epochs;
+pub mod histories;
 pub mod kept;
 pub mod manifest;
 pub(crate) mod measured;
