@@ -487,7 +487,8 @@ pub struct MergeArgs {
 /// `report`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  trade-harness report results/compare\n  trade-harness report results/compare --svg --png"
+    after_help = "Examples:\n  trade-harness report results/compare\n  trade-harness report results/compare --svg --png
+  trade-harness report results/compare --parquet"
 )]
 pub struct ReportArgs {
     /// Folder of a finished study; report.html goes there
@@ -499,6 +500,10 @@ pub struct ReportArgs {
     /// Write the figures as PNG as well, into DIR/figures
     #[arg(long)]
     pub png: bool,
+    /// Write the histories (epochs/, run_errors/, paths/) as Parquet files beside the CSV files; of a program built with
+    /// `--features parquet`
+    #[arg(long)]
+    pub parquet: bool,
     /// Say nothing of what was written
     #[arg(long, short)]
     pub quiet: bool,
@@ -585,7 +590,7 @@ pub struct ReplayArgs {
     /// Number of the run
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=i64::from(i32::MAX)))]
     pub run: u32,
-    /// CSV file to write
+    /// CSV file to write; a Parquet file where its name ends in .parquet, by a program built with `--features parquet`
     #[arg(long, value_name = "FILE", default_value = "results/replay.csv")]
     pub out: PathBuf,
     /// Which filters, which parameters.

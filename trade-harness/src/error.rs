@@ -242,6 +242,15 @@ pub enum HarnessError {
     /// Rows that cannot be put into CSV.
     #[error("cannot form a CSV table: {0}")]
     Csv(#[from] csv::Error),
+    /// Rows that cannot be put into a Parquet file.
+    #[cfg(feature = "parquet")]
+    #[error("cannot form a Parquet file: {0}")]
+    Parquet(#[from] ::parquet::errors::ParquetError),
+    /// A program built without what was asked of it.
+    #[error(
+        "this program was built without Parquet files; `cargo build --release -p trade-harness --features parquet` makes one with them"
+    )]
+    NoParquet,
     /// A manifest that cannot be put into JSON.
     #[error("cannot form the manifest: {0}")]
     Json(#[from] serde_json::Error),

@@ -19,6 +19,8 @@ pub mod error;
 pub mod format;
 pub mod output;
 pub mod pack;
+#[cfg_attr(not(feature = "parquet"), path = "no_parquet.rs")]
+pub mod parquet;
 pub mod report;
 pub mod reproduce;
 pub mod requirements;

@@ -18,8 +18,13 @@ use crate::HarnessError;
 use crate::cli::ReplayArgs;
 use crate::format::{cell, finished};
 use crate::output::{prepare_file, write_whole};
+use crate::parquet::from_csv;
 
 pub(super) fn replay(args: &ReplayArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
+    let as_parquet = args.out.extension().is_some_and(|extension| extension == "parquet");
+    if as_parquet && !cfg!(feature = "parquet") {
+        return Err(HarnessError::NoParquet);
+    }
     prepare_file(&args.out)?;
     let folder = scratch()?;
     let spec = match &args.dir {
@@ -77,7 +82,8 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
             writer.write_record(line.iter().cloned().chain(measurements.cells(values)))?;
         }
     }
-    write_whole(&args.out, &finished(writer)?)?;
+    let table = finished(writer)?;
+    write_whole(&args.out, &if as_parquet { from_csv(&table)? } else { table })?;
     for (filter, ending) in spec.filters.iter().zip(&report.endings) {
         if let Some(failure) = &ending.failure {
             let when = failure.time.map(|t| format!(" at {t} s")).unwrap_or_default();
