@@ -281,4 +281,36 @@ fn a_filter_in_python_does_what_the_one_in_c_does() {
     for (python, c) in python.iter().zip(&c) {
         assert!((python / c - 1.0).abs() < 1e-9, "{python} {c}");
     }
+
+    // One of these runs again, with what the study was made with; and a search with it taking part.
+    let study = folder.path().join("python");
+    let replayed = folder.path().join("replay.csv");
+    let one = ["replay", text(&study), "--run", "1", "--filter", "mine"];
+    harness_ok(&[&one[..], &["--out", text(&replayed)]].concat());
+    let squares = |row: std::collections::HashMap<String, String>| -> f64 {
+        let error = ["r", "t", "n"].map(|axis| row[&format!("err_pos_{axis}_m")].parse::<f64>().unwrap());
+        error.iter().map(|e| e * e).sum()
+    };
+    let scored = read_csv(&replayed)
+        .into_iter()
+        .filter(|row| row["t_s"].parse::<f64>().unwrap() >= 300.0);
+    let scored: Vec<f64> = scored.map(squares).collect();
+    let rmse = (scored.iter().sum::<f64>() / scored.len() as f64).sqrt();
+    assert!((rmse / python[2] - 1.0).abs() < 1e-9, "{rmse} {}", python[2]);
+    let tuned = folder.path().join("tuned");
+    let search = [
+        "tune",
+        "--filters",
+        "snc",
+        "--nav",
+        &mine,
+        "--evaluations",
+        "1",
+        "--runs",
+        "1",
+    ];
+    let judged = ["--judge-runs", "1", "--preload", "python", "--out", text(&tuned)];
+    harness_ok(&[&search[..], &judged].concat());
+    let best = read_csv(&tuned.join("best.csv"));
+    assert!(best.iter().any(|row| row["filter"] == "mine"), "{best:?}");
 }

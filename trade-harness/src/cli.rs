@@ -553,6 +553,10 @@ pub struct TuneArgs {
     /// All columns of the table; the plain one fits 80 columns
     #[arg(long)]
     pub wide: bool,
+    /// Load a library before any FMU, for FMUs that expect it there; 'python' is that of the python3 on the path, which filters
+    /// made with PythonFMU need; repeatable
+    #[arg(long, value_name = "LIB")]
+    pub preload: Vec<PathBuf>,
     /// Which filters, which parameters.
     #[command(flatten)]
     pub study: StudyArgs,
@@ -593,6 +597,9 @@ pub struct ReplayArgs {
     /// CSV file to write; a Parquet file where its name ends in .parquet, by a program built with `--features parquet`
     #[arg(long, value_name = "FILE", default_value = "results/replay.csv")]
     pub out: PathBuf,
+    /// Load a library before any FMU, for FMUs that expect it there, beside those that the study in DIR was made with; 'python' is that of the python3 on the path; repeatable
+    #[arg(long, value_name = "LIB")]
+    pub preload: Vec<PathBuf>,
     /// Which filters, which parameters.
     #[command(flatten)]
     pub study: StudyArgs,

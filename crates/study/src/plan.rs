@@ -123,7 +123,7 @@ pub struct Isolation {
     pub run_limit_s: f64,
     /// Most memory of a worker, MiB.
     pub memory_limit_mib: u64,
-    /// Libraries that workers load before any FMU, for FMUs that expect them in the program; `python`: that of the `python3` on the
+    /// Libraries that are loaded before any FMU, in workers and in `replay`, for FMUs that expect them in the program; `python`: that of the `python3` on the
     /// path.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub preload: Vec<PathBuf>,

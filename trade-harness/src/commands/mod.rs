@@ -10,6 +10,7 @@ mod merge;
 mod mission;
 mod out;
 mod pack;
+mod preload;
 mod progress;
 mod replay;
 mod report;

@@ -12,6 +12,7 @@ use study::{
 
 use super::list::known;
 use super::out::Out;
+use super::preload::start_again_with;
 use super::rerun::Recorded;
 use super::shared::{Verdict, changed, models, note, scratch};
 use crate::HarnessError;
@@ -25,6 +26,7 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
     if as_parquet && !cfg!(feature = "parquet") {
         return Err(HarnessError::NoParquet);
     }
+    start_again_with(&args.preload)?;
     prepare_file(&args.out)?;
     let folder = scratch()?;
     let spec = match &args.dir {
@@ -146,6 +148,7 @@ fn of_a_study(args: &ReplayArgs, dir: &Path, folder: &Path) -> Result<Spec, Harn
             known: format!("0 to {}", plan.runs - 1),
         });
     }
+    start_again_with(&plan.isolation.preload)?;
     let mut spec = recorded.models(plan)?.spec(plan, world)?;
     for label in &args.labels {
         known("filter", label, spec.filters.iter().map(|filter| filter.label.as_str()))?;

@@ -6,6 +6,7 @@ mod results;
 use study::Plan;
 
 use super::out::Out;
+use super::preload::start_again_with;
 use super::progress::Progress;
 use super::shared::{Verdict, models, plan_of};
 use crate::HarnessError;
@@ -18,6 +19,7 @@ use contest::{Contest, check_ranges};
 use results::Done;
 
 pub(super) fn tune(args: &TuneArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
+    start_again_with(&args.preload)?;
     let plan = plan_of(Plan::default(), &args.study, &args.worlds, &args.work)?;
     let options = options(args, &plan)?;
     let folder = OutputFolder::prepare(&args.out)?;
