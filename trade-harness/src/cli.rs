@@ -1,7 +1,9 @@
 //! What the command line understands.
 
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use study::{
     Assignment, FilterChoice, ForeignFilter, Grid, Isolation, Mapping, Phase, Plan, Requirement, Shard, Variation,
@@ -203,9 +205,9 @@ impl From<SchemeChoice> for cosim::Scheme {
     after_help = "Examples:\n  trade-harness list filters milton\n  trade-harness list parameters fmu-truth lidar\n  trade-harness list --json presets"
 )]
 pub struct ListArgs {
-    /// What to list [default: an overview]
-    #[arg(value_enum)]
-    pub what: Option<Listed>,
+    /// What to list, or the name of a mission or filter [default: an overview]
+    #[arg(value_parser = TopicParser)]
+    pub what: Option<Topic>,
     /// One of them: a mission, a filter, an FMU, a file
     pub name: Option<String>,
     /// Of an FMU's parameters: those of one filter or of one part of the world, as in 'parameters fmu-truth lidar'
@@ -216,10 +218,37 @@ impl ListArgs {
     /// All of one kind.
     pub fn of(what: Listed) -> Self {
         Self {
-            what: Some(what),
+            what: Some(Topic::Kind(what)),
             name: None,
             of: None,
         }
+    }
+}
+
+/// What is asked of `list`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Topic {
+    /// Everything of a kind.
+    Kind(Listed),
+    /// One thing by its name, whatever kind it is.
+    Named(String),
+}
+
+/// Takes any name, but offers the kinds to help texts and shells.
+#[derive(Debug, Clone)]
+struct TopicParser;
+
+impl TypedValueParser for TopicParser {
+    type Value = Topic;
+
+    fn parse_ref(&self, _: &clap::Command, _: Option<&clap::Arg>, value: &OsStr) -> Result<Topic, clap::Error> {
+        let name = value.to_string_lossy();
+        Ok(Listed::from_str(&name, false).map_or_else(|_| Topic::Named(name.clone().into_owned()), Topic::Kind))
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let kinds = Listed::value_variants().iter();
+        Some(Box::new(kinds.filter_map(ValueEnum::to_possible_value)))
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use fmi2_import::ImportError;
 use stats::StatsError;
-use study::StudyError;
+use study::{StudyError, did_you_mean};
 use thiserror::Error;
 
 /// Everything that ends a command; a failed run of a study does not.
@@ -326,10 +326,4 @@ impl From<StatsError> for HarnessError {
     fn from(error: StatsError) -> Self {
         StudyError::from(error).into()
     }
-}
-
-fn did_you_mean(meant: Option<&str>) -> String {
-    meant
-        .map(|meant| format!(", did you mean '{meant}'?"))
-        .unwrap_or_default()
 }

@@ -75,10 +75,12 @@ pub enum StudyError {
         source: AnnotationError,
     },
     /// A filter of that name does not exist.
-    #[error("fmu-nav has no filter '{name}'; it has: {known}")]
+    #[error("fmu-nav has no filter '{name}'{}; it has: {known}", did_you_mean(meant.as_deref()))]
     UnknownFilter {
         /// Name asked for.
         name: String,
+        /// The nearest name.
+        meant: Option<String>,
         /// Names that exist.
         known: String,
     },
@@ -381,4 +383,11 @@ pub fn chain(error: &dyn std::error::Error) -> String {
         cause = inner.source();
     }
     text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The end of a sentence about a name that does not exist.
+pub fn did_you_mean(meant: Option<&str>) -> String {
+    meant
+        .map(|meant| format!(", did you mean '{meant}'?"))
+        .unwrap_or_default()
 }

@@ -53,7 +53,7 @@ pub mod worlds;
 
 pub use arguments::{Assignment, FilterChoice, ForeignFilter, Mapping, PAPER};
 pub use calibration::{Calibration, Check, calibrate};
-pub use error::{StudyError, chain};
+pub use error::{StudyError, chain, did_you_mean};
 pub use file::inline;
 pub use flown::Flown;
 pub use fold::{FilterResult, RunRow, Timing};

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use cosim::{BaseType, Value};
-use fmi2_import::Causality;
+use fmi2_import::{Causality, suggest};
 
 use crate::arguments::{Assignment, FilterChoice, PAPER};
 use crate::error::StudyError;
@@ -67,6 +67,7 @@ impl<'a> StartValues<'a> {
         if !items.iter().any(|i| i.name == choice.name) {
             return Err(StudyError::UnknownFilter {
                 name: choice.name.clone(),
+                meant: suggest(&choice.name, items.iter().map(|i| i.name.as_str())),
                 known: items.iter().map(|i| i.name.as_str()).collect::<Vec<_>>().join(", "),
             });
         }

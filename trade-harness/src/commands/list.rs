@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use clap::ValueEnum;
 use comfy_table::{ContentArrangement, Table, presets};
 use fmi2_import::{Causality, EnumerationItem, ModelDescription, Variable, suggest};
 use interface::annotation::Filters;
@@ -13,8 +14,8 @@ use super::out::Out;
 use super::shared::Verdict;
 use crate::HarnessError;
 use crate::claims::{self, Claim};
-use crate::cli::{ListArgs, Listed};
-use crate::format::lines;
+use crate::cli::{ListArgs, Listed, Topic};
+use crate::format::{TERMINAL, lines, wrapped};
 use crate::report::columns;
 
 /// What the FMUs of this project say of themselves. Their own test holds the files to what they render.
@@ -24,20 +25,50 @@ const NAV_XML: &str = include_str!("../../../modelDescription/fmu-nav/modelDescr
 pub(super) fn list(args: &ListArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     let nav = ModelDescription::parse(NAV_XML.as_bytes(), Path::new(NAV))?;
     let name = args.name.as_deref();
-    match args.what {
-        None => overview(&nav, out)?,
-        Some(Listed::Missions) => missions(name, out)?,
-        Some(Listed::Filters) => filters(&nav, name, out)?,
-        Some(Listed::Presets) => sets(&nav, name, out)?,
-        Some(Listed::Parameters) => {
+    let kind = match &args.what {
+        None => {
+            overview(&nav, out)?;
+            return Ok(Verdict::Done);
+        }
+        Some(Topic::Kind(kind)) => *kind,
+        Some(Topic::Named(name)) => {
+            named(&nav, name, out)?;
+            return Ok(Verdict::Done);
+        }
+    };
+    match kind {
+        Listed::Missions => missions(name, out)?,
+        Listed::Filters => filters(&nav, name, out)?,
+        Listed::Presets => sets(&nav, name, out)?,
+        Listed::Parameters => {
             let truth = ModelDescription::parse(TRUTH_XML.as_bytes(), Path::new(TRUTH))?;
             parameters_of(&truth, &nav, name, args.of.as_deref(), out)?;
         }
-        Some(Listed::Ports) => ports(out)?,
-        Some(Listed::Distributions) => distributions(out)?,
-        Some(Listed::Metrics) => metrics(name, out)?,
+        Listed::Ports => ports(out)?,
+        Listed::Distributions => distributions(out)?,
+        Listed::Metrics => metrics(name, out)?,
     }
     Ok(Verdict::Done)
+}
+
+/// A mission or a filter, whichever has this name.
+fn named(nav: &ModelDescription, name: &str, out: &mut Out<'_>) -> Result<(), HarnessError> {
+    let worlds = worlds::all()?;
+    if worlds.iter().any(|world| world.name == name) {
+        return missions(Some(name), out);
+    }
+    let items = nav.items("filter");
+    if items.iter().any(|item| item.name == name) {
+        return filters(nav, Some(name), out);
+    }
+    let kinds: Vec<_> = Listed::value_variants()
+        .iter()
+        .filter_map(Listed::to_possible_value)
+        .collect();
+    let kinds = kinds.iter().map(|kind| kind.get_name());
+    let items = items.iter().map(|item| item.name.as_str());
+    let all = kinds.chain(worlds.iter().map(|world| world.name.as_str())).chain(items);
+    known("list, mission or filter", name, all).map(drop)
 }
 
 /// The one of these names that is meant.
@@ -94,20 +125,20 @@ fn missions(name: Option<&str>, out: &mut Out<'_>) -> Result<(), HarnessError> {
     let mut told = Vec::new();
     for s in all.iter().filter(|m| name.is_none_or(|name| m.name == name)) {
         let filters: Vec<String> = s.filters.iter().map(FilterChoice::to_string).collect();
-        out.say(&format!("{}: {}", s.name, s.about))?;
-        out.say(&format!(
-            "  {} s, scored from {} s; {}\n  filters: {}",
-            s.duration_s,
-            s.scored_from_s,
-            s.reference,
-            filters.join(", ")
-        ))?;
+        let (length, from) = (s.duration_s, s.scored_from_s);
+        out.say(&wrapped(&format!("{}: {}", s.name, s.about)))?;
+        out.say(&wrapped(&format!(
+            "  {length} s, scored from {from} s; {}",
+            s.reference
+        )))?;
+        out.say(&wrapped(&format!("  filters: {}", filters.join(", "))))?;
         let same = |a: &Claim, b: &Claim| (a.filter, a.text, a.bound) == (b.filter, b.text, b.bound);
         for together in claims::of(&s.name).chunk_by(same) {
             let columns: Vec<&str> = together.iter().map(|c| c.column).collect();
             if let Some(claim) = together.first() {
                 let (columns, range) = (columns.join(", "), claim.bound.words(|end| end.to_string()));
-                out.say(&format!("  claim: {} {columns} {range}: {}", claim.filter, claim.text))?;
+                let claim = format!("  claim: {} {columns} {range}: {}", claim.filter, claim.text);
+                out.say(&wrapped(&claim))?;
             }
         }
         out.say("")?;
@@ -154,7 +185,10 @@ fn sets(nav: &ModelDescription, name: Option<&str>, out: &mut Out<'_>) -> Result
             .iter()
             .map(|s| format!("{} = {}", s.variable, s.value))
             .collect();
-        out.say(&format!("{}@{}: {}", preset.filter, preset.name, preset.about))?;
+        out.say(&wrapped(&format!(
+            "{}@{}: {}",
+            preset.filter, preset.name, preset.about
+        )))?;
         out.say(&format!("  {}", values.join("\n  ")))?;
         let values = preset
             .sets
@@ -242,7 +276,8 @@ fn metrics(file: Option<&str>, out: &mut Out<'_>) -> Result<(), HarnessError> {
             let name = format!("  {name}");
             [name, (*unit).to_owned(), (*meaning).to_owned()]
         }));
-        out.say(&format!("{}: one row for {}\n{}\n", own.file, own.about, lines(&table)))?;
+        let head = wrapped(&format!("{}: one row for {}", own.file, own.about));
+        out.say(&format!("{head}\n{}\n", lines(&table)))?;
         let told = own
             .columns
             .iter()
@@ -254,25 +289,30 @@ fn metrics(file: Option<&str>, out: &mut Out<'_>) -> Result<(), HarnessError> {
 
 fn describe_filter(nav: &ModelDescription, told: &Filters, item: &EnumerationItem) -> String {
     let (filter, about) = (item.name.as_str(), item.description.as_deref());
-    let mut text = format!(
-        "Filter {filter}{}\n",
+    let mut text = String::new();
+    let mut say = |line: &str| {
+        text.push_str(&wrapped(line));
+        text.push('\n');
+    };
+    say(&format!(
+        "Filter {filter}{}",
         about.map(|a| format!(": {a}")).unwrap_or_default()
-    );
+    ));
     for only in told.meanings.iter().filter(|m| m.filter == filter) {
-        text.push_str(&format!("  only in {}: {}\n", only.scenarios.join(", "), only.why));
+        say(&format!("  only in {}: {}", only.scenarios.join(", "), only.why));
     }
     if !told.presets_of(filter).any(|p| p.name == PAPER) {
-        text.push_str(&format!("  {filter} = {filter}@{PAPER}: start values as below\n"));
+        say(&format!("  {filter} = {filter}@{PAPER}: start values as below"));
     }
     for preset in told.presets_of(filter) {
-        text.push_str(&format!("  {filter}@{}: {}\n", preset.name, preset.about));
+        say(&format!("  {filter}@{}: {}", preset.name, preset.about));
         for set in &preset.sets {
-            text.push_str(&format!("    {} = {}\n", set.variable, set.value));
+            say(&format!("    {} = {}", set.variable, set.value));
         }
     }
     for search in told.searches.iter().filter(|s| prefix(&s.variable) == filter) {
-        text.push_str(&format!(
-            "  tune: {} from {:?} to {:?}\n",
+        say(&format!(
+            "  tune: {} from {:?} to {:?}",
             search.variable, search.low, search.high
         ));
     }
@@ -336,6 +376,9 @@ fn plain<const N: usize>(header: [&str; N]) -> Table {
     table
         .load_style(presets::NOTHING)
         .set_content_arrangement(ContentArrangement::Dynamic);
+    if !table.is_tty() {
+        table.set_width(u16::try_from(TERMINAL).unwrap_or(u16::MAX));
+    }
     if N > 0 {
         let mut header: Vec<String> = header.map(str::to_owned).to_vec();
         header[0] = format!("  {}", header[0]);

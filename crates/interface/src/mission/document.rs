@@ -18,6 +18,39 @@ pub struct Document {
     set: Vec<String>,
 }
 
+/// What to add where a name was given that is neither a file nor a mission of the project.
+fn of_no_mission(path: &Path, source: &std::io::Error) -> String {
+    let bare = path.extension().is_none() && path.components().count() == 1;
+    if !bare || source.kind() != std::io::ErrorKind::NotFound {
+        return String::new();
+    }
+    let names: Vec<&str> = super::EMBEDDED.iter().map(|entry| entry.name).collect();
+    format!(
+        "; nor is it a mission of the project{}",
+        one_of(&path.to_string_lossy(), &names, "there are")
+    )
+}
+
+/// The end of a message about a name that does not exist: the nearest one, if one is near, and all there are.
+///
+/// * `all`: how these are introduced.
+fn one_of(given: &str, known: &[&str], all: &str) -> String {
+    let nearest = known
+        .iter()
+        .map(|name| (strsim::damerau_levenshtein(given, name), *name))
+        // A name without its unit is a likely slip.
+        .min_by_key(|(distance, name)| if name.starts_with(given) { 0 } else { *distance });
+    let hint = match nearest {
+        Some((distance, name)) if distance <= 1 + given.len() / 2 || name.starts_with(given) => {
+            format!(", did you mean `{name}`?")
+        }
+        _ => ";".into(),
+    };
+    let mut names = known.to_vec();
+    names.sort_unstable();
+    format!("{hint} {all}: {}", names.join(", "))
+}
+
 impl Document {
     /// Reads a file; nothing is checked yet.
     ///
@@ -33,7 +66,7 @@ impl Document {
         };
         let (text, folder) = read(path).map_err(|source| MissionError::Read {
             path: path.display().to_string(),
-            reason: source.to_string(),
+            reason: format!("{source}{}", of_no_mission(path, &source)),
         })?;
         Ok(Self {
             origin: path.display().to_string(),
@@ -397,20 +430,7 @@ fn friendlier(message: &str, text: &str, span: Option<Range<usize>>) -> String {
         } else {
             "unknown value"
         };
-        let nearest = known
-            .iter()
-            .map(|name| (strsim::damerau_levenshtein(given, name), *name))
-            // A name without its unit is a likely slip.
-            .min_by_key(|(distance, name)| if name.starts_with(given) { 0 } else { *distance });
-        let hint = match nearest {
-            Some((distance, name)) if distance <= 1 + given.len() / 2 || name.starts_with(given) => {
-                format!(", did you mean `{name}`?")
-            }
-            _ => ";".into(),
-        };
-        let mut names = known.to_vec();
-        names.sort_unstable();
-        return format!("{what} `{given}`{hint} allowed here: {}", names.join(", "));
+        return format!("{what} `{given}`{}", one_of(given, known, "allowed here"));
     }
     let given = span.and_then(|span| text.get(span)).unwrap_or_default();
     if message.starts_with("invalid type") && !given.is_empty() && given.len() < 60 && !given.contains('\n') {
