@@ -234,6 +234,22 @@ fn a_long_step_scores_the_samples_that_are_left() {
     );
 }
 
+/// A run that leaves the truth and then ends in an error has diverged, and has no part in the errors.
+#[test]
+fn a_run_that_is_lost_and_then_fails_counts_as_both() {
+    let quirks = [
+        ("lost", Quirk::LostThenFails { run: 3, time: 17.0 }),
+        ("failing", Quirk::Fails { run: 3, time: 17.0 }),
+    ];
+    let (_, filters) = study(spec(Quirk::None, &quirks), 2);
+    let [lost, failing] = [0, 1].map(|i| row(&filters[i]));
+    assert_eq!(
+        [(lost.failed, lost.diverged), (failing.failed, failing.diverged)],
+        [(1, 1), (1, 0)]
+    );
+    near(lost.position.rmse, rms_norm((0..RUNS).filter(|r| *r != 3)));
+}
+
 #[test]
 fn a_failed_run_is_counted_and_leaves_the_others_alone() {
     let quirks = [

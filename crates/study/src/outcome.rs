@@ -61,10 +61,11 @@ impl Outcome {
         let epochs = spec.epochs();
         let mut records: Vec<_> = spec.filters.iter().map(|_| Vec::with_capacity(epochs)).collect();
         let mut path = Path::new(spec);
+        let phases = spec.phases.in_run(&spec.truth, spec.seed, run);
         let report = run_once(spec, run, |filter, truth, estimate| {
             let mut record = score(&spec.world, truth, estimate)
                 .ok_or_else(|| format!("the axes of the results are undefined at {} s", truth.time))?;
-            record.phases = spec.phases.of(truth);
+            record.phases = phases.of(truth);
             records[filter].push(record);
             if run == 0 {
                 path.push(spec, truth);

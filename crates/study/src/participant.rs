@@ -79,6 +79,18 @@ impl Participant {
         self.varied.iter().any(|v| v.name == contract)
     }
 
+    /// Real value of a variable in one run, by the FMU's own name: drawn, or set; `None` where neither is.
+    ///
+    /// * `seed`: of the study.
+    pub fn value_in_run(&self, own: &str, seed: i32, run: u32) -> Option<f64> {
+        let contract = self.contract(own);
+        let drawn = self.varied.iter().find(|v| v.name == contract);
+        drawn.map(|v| v.value(seed, run)).or_else(|| match self.start(own) {
+            Some(Value::Real(x)) => Some(*x),
+            _ => None,
+        })
+    }
+
     /// What one run draws: `MODEL.VARIABLE` by the FMU's own name, and the value.
     ///
     /// * `seed`: of the study.

@@ -1,5 +1,7 @@
 //! Named parts of a run: which epochs belong to which.
 
+use std::borrow::Cow;
+
 use cosim::Value;
 use interface::mission::Phase;
 
@@ -17,6 +19,20 @@ pub struct Phases {
     rules: Vec<Phase>,
     scored_from_s: f64,
     burn_ends: Vec<f64>,
+    /// How many of these are the mission's own.
+    planned: usize,
+}
+
+/// Parameters of the target's extra burn.
+const BURN_START: &str = "target_burn.start";
+const BURN_DURATION: &str = "target_burn.duration";
+
+/// When the target's extra burn ends, s; `None` without one.
+///
+/// * `value`: of a parameter.
+fn extra_burn_end(value: impl Fn(&str) -> f64) -> Option<f64> {
+    let duration = value(BURN_DURATION);
+    (duration > 0.0).then(|| value(BURN_START) + duration)
 }
 
 impl Phases {
@@ -64,20 +80,34 @@ impl Phases {
                 world.name
             )));
         }
-        let real = |name: &str| match truth.start(name) {
+        let set = |name: &str| match truth.start(name) {
             Some(Value::Real(x)) => *x,
             _ => 0.0,
         };
         let mut burn_ends: Vec<f64> = world.mission.burns.iter().map(|b| b.start_s + b.duration_s).collect();
-        let extra = real("target_burn.duration");
-        if extra > 0.0 {
-            burn_ends.push(real("target_burn.start") + extra);
-        }
+        let planned = burn_ends.len();
+        burn_ends.extend(extra_burn_end(set));
         Ok(Self {
             rules,
             scored_from_s: world.scored_from_s,
             burn_ends,
+            planned,
         })
+    }
+
+    /// The same in one run, where the target's extra burn may be one that each run draws anew.
+    ///
+    /// * `truth`: as for [`Phases::new`].
+    pub fn in_run(&self, truth: &Participant, seed: i32, run: u32) -> Cow<'_, Self> {
+        if ![BURN_START, BURN_DURATION].iter().any(|name| truth.varies(name)) {
+            return Cow::Borrowed(self);
+        }
+        let mut own = self.clone();
+        own.burn_ends.truncate(self.planned);
+        own.burn_ends.extend(extra_burn_end(|name| {
+            truth.value_in_run(name, seed, run).unwrap_or(0.0)
+        }));
+        Cow::Owned(own)
     }
 
     /// Their conditions, in order.
@@ -112,6 +142,7 @@ impl Phases {
 mod tests {
     use super::*;
     use crate::samples::StatusItems;
+    use crate::variation::Varied;
     use crate::worlds;
     use nalgebra::Vector3;
     use std::sync::Arc;
@@ -174,6 +205,29 @@ mod tests {
         assert_eq!(epochs(&phases, "far_vents"), (505..510).collect::<Vec<_>>());
         let after = epochs(&phases, "after");
         assert!((610..=615).all(|t| after.contains(&t)) && !after.contains(&609) && !after.contains(&616));
+    }
+
+    #[test]
+    fn a_burn_that_each_run_draws_anew_ends_when_that_run_has_it() {
+        let world = worlds::find("leo_venting").unwrap();
+        let mut truth = participant(&[("target_burn.start", 600.0), ("target_burn.duration", 10.0)]);
+        truth.varied.push(Varied {
+            name: "target_burn.start".to_owned(),
+            distribution: "uniform:310:800".parse().unwrap(),
+            draw: 0,
+        });
+        let phases = Phases::new(&world, &truth, &[phase("name = \"after\"\nafter_burn_s = 5.0")]).unwrap();
+        let mut firsts = Vec::new();
+        for run in 0..4 {
+            let (name, start) = truth.drawn(7, run).remove(0);
+            assert_eq!(name, "fmu-truth.target_burn.start");
+            let after = epochs(&phases.in_run(&truth, 7, run), "after");
+            let first = *after.iter().find(|t| **t > 300).unwrap();
+            assert_eq!(f64::from(first), (start + 10.0).ceil(), "run {run}");
+            firsts.push(first);
+        }
+        firsts.dedup();
+        assert!(firsts.len() > 1, "{firsts:?}");
     }
 
     #[test]

@@ -54,6 +54,11 @@ pub enum Quirk {
         run: i32,
         time: f64,
     },
+    /// The estimate of a run is 200 m off, and a step of it fails at this time.
+    LostThenFails {
+        run: i32,
+        time: f64,
+    },
     /// Refuses to initialise.
     Refuses,
     /// The estimate of a run turns NaN.
@@ -366,7 +371,7 @@ impl Mock {
             let mut position = factor * noise(run, count, axis) + if axis == 0 { distance } else { 0.0 };
             match self.quirk {
                 Quirk::NotFinite { run: r } if r == run && count > 7 => position = f64::NAN,
-                Quirk::Lost { run: r } if r == run => position += 200.0,
+                Quirk::Lost { run: r } | Quirk::LostThenFails { run: r, .. } if r == run => position += 200.0,
                 _ => {}
             }
             self.put(&format!("est.r_tc_n[{}]", axis + 1), position);
@@ -418,7 +423,7 @@ impl Slave for Mock {
     }
 
     fn do_step(&mut self, t: f64, h: f64) -> Result<(), SlaveError> {
-        if let Quirk::Fails { run, time } = self.quirk
+        if let Quirk::Fails { run, time } | Quirk::LostThenFails { run, time } = self.quirk
             && run == self.integer("run")
             && t + h >= time - 1e-9
         {
