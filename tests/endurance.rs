@@ -106,6 +106,12 @@ fn killed_at_any_moment_a_study_goes_on_to_the_same_bytes() {
     // Once more: it is complete, and stays as it is.
     let said = harness_ok(&[&STUDY[..], &["--resume", "--out", text(&killed)]].concat());
     assert!(said.contains("complete"), "{said}");
+    // Its runs are those of a study with other requirements, but it was not judged by them.
+    let other = ["--resume", "--require", "metric = \"pos_rmse_m\", at_most = 5"];
+    let refused = harness(&[&STUDY[..], &other, &["--out", text(&killed)]].concat());
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(said.contains("other requirements"), "{said}");
 }
 
 /// How long it takes here and now until a run is kept.

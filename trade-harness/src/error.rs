@@ -53,6 +53,15 @@ pub enum HarnessError {
         /// Why not.
         why: String,
     },
+    /// A complete study that is to be resumed with requirements that it was not judged by.
+    #[error(
+        "{}: the study is complete and was judged by other requirements; without --resume it is made again and judged by these",
+        path.display()
+    )]
+    OtherRequirements {
+        /// Its folder.
+        path: PathBuf,
+    },
     /// A folder without a study that can be made again.
     #[error("{}: {problem}", path.display())]
     NoStudy {

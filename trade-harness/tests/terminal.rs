@@ -50,6 +50,43 @@ fn what_is_listed_is_one_document() {
     }
 }
 
+/// Where there is no terminal, a line has room in the narrowest one that is usual.
+#[test]
+fn what_is_listed_fits_eighty_columns() {
+    let kinds = [
+        "missions",
+        "filters",
+        "presets",
+        "parameters",
+        "ports",
+        "distributions",
+        "metrics",
+        "milton",
+        "formation",
+    ];
+    for line in kinds.map(|kind| vec!["list", kind]).into_iter().chain([vec!["list"]]) {
+        let told = output(&line);
+        assert!(told.status.success(), "{line:?}: {told:?}");
+        let text = String::from_utf8(told.stdout).unwrap();
+        let widest = text.lines().max_by_key(|line| line.chars().count()).unwrap();
+        assert!(widest.chars().count() <= 80, "{line:?}: {widest}");
+    }
+}
+
+#[test]
+fn a_name_alone_lists_what_it_names() {
+    for (name, whole) in [
+        ("milton", ["list", "filters", "milton"]),
+        ("formation", ["list", "missions", "formation"]),
+    ] {
+        assert_eq!(output(&["list", name]).stdout, output(&whole).stdout, "{name}");
+    }
+    let told = String::from_utf8(output(&["list", "miltno"]).stderr).unwrap();
+    assert!(told.contains("did you mean 'milton'"), "{told}");
+    let told = String::from_utf8(output(&["mission", "check", "formatoin"]).stderr).unwrap();
+    assert!(told.contains("did you mean `formation`"), "{told}");
+}
+
 #[test]
 fn help_is_no_error_where_documents_are_asked_for() {
     let told = output(&["--json", "compare", "--help"]);

@@ -8,6 +8,7 @@ use super::finished::{Finished, finish};
 use super::kept::{KEPT, Kept, shard_folder};
 use super::out::Out;
 use super::progress::{run_watched, shard_watched};
+use super::rerun::Recorded;
 use super::shared::{Verdict, cast, end_when_asked, models, note, plan_of, scratch};
 use super::worker;
 use crate::HarnessError;
@@ -83,6 +84,10 @@ pub(super) fn carry_out(plan: &Plan, models: &Models, way: &Way, out: &mut Out<'
         .shard
         .map_or_else(|| way.out_dir.clone(), |shard| shard_folder(&way.out_dir, shard));
     if way.claim == Claim::Resume && StudyFolder::is_complete(&place, &identity) {
+        let judged = Recorded::read(&place)?.study;
+        if judged.is_some_and(|judged| judged.requirements != plan.requirements) {
+            return Err(HarnessError::OtherRequirements { path: place });
+        }
         out.say(&format!("{} holds this study, complete", place.display()))?;
         return Ok(Verdict::Done);
     }
