@@ -483,14 +483,21 @@ mod tests {
     #[test]
     fn a_tunable_left_to_the_mission_is_shown_as_it_acts() {
         let mut model = started(1);
-        assert_eq!(real(&model, "resolved.milton.psi0"), -1.0);
+        let shown = |model: &NavModel, name: &str| real(model, name).to_bits();
+        assert_eq!(shown(&model, "resolved.milton.psi0"), (-1.0_f64).to_bits());
         let navigation = model.choice.mission().unwrap().navigation();
         *model.settings.tunable_mut("milton", "psi0").unwrap() = tunable::Value::Real(7.5);
         let model = initialised(model);
-        assert_eq!(real(&model, "milton.s0"), -1.0);
-        assert_eq!(real(&model, "resolved.milton.s0"), navigation.law["milton.s0"]);
-        assert_eq!(real(&model, "resolved.milton.psi0"), 7.5);
-        assert_eq!(real(&model, "resolved.dmc.sigma"), navigation.scale.disturbance_m_s2);
+        assert_eq!(shown(&model, "milton.s0"), (-1.0_f64).to_bits());
+        assert_eq!(
+            shown(&model, "resolved.milton.s0"),
+            navigation.law["milton.s0"].to_bits()
+        );
+        assert_eq!(shown(&model, "resolved.milton.psi0"), 7.5_f64.to_bits());
+        assert_eq!(
+            shown(&model, "resolved.dmc.sigma"),
+            navigation.scale.disturbance_m_s2.to_bits()
+        );
     }
 
     #[test]
