@@ -95,7 +95,7 @@ fn what_is_listed_is_what_the_built_fmus_say_of_themselves() {
         );
         assert_eq!(all[name], built["parameters"], "{name}");
     }
-    let opened = fmi2_import::Fmu::open(&fmu("fmu-nav")).unwrap();
+    let opened = fmi2_import::Fmu::open(fmu("fmu-nav")).unwrap();
     let built = study::filters_of(opened.description()).unwrap();
     let listed = document(&["list", "presets"]);
     let listed: BTreeSet<(String, String, String)> = listed["presets"]
