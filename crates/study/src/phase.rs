@@ -223,7 +223,7 @@ mod tests {
             assert_eq!(name, "fmu-truth.target_burn.start");
             let after = epochs(&phases.in_run(&truth, 7, run), "after");
             let first = *after.iter().find(|t| **t > 300).unwrap();
-            assert_eq!(f64::from(first), (start + 10.0).ceil(), "run {run}");
+            assert!((f64::from(first) - (start + 10.0).ceil()).abs() < 0.5, "run {run}");
             firsts.push(first);
         }
         firsts.dedup();
