@@ -136,9 +136,9 @@ impl PhaseResult {
 }
 
 /// Runs drawn again, the same for all filters of a study.
-pub(crate) fn resamples(runs: usize, seed: i32) -> Resamples {
+pub(crate) fn resamples(runs: usize, seed: i32) -> Resamples<impl FnMut(u32) -> u32 + Clone> {
     let mut generator = stream(seed.unsigned_abs().into(), 0, Source::Bootstrap);
-    Resamples::new(u32::try_from(runs).unwrap_or(u32::MAX), |n| {
+    Resamples::new(u32::try_from(runs).unwrap_or(u32::MAX), move |n| {
         generator.random_range(0..n)
     })
 }
