@@ -81,6 +81,13 @@ fn a_missed_requirement_is_in_the_document_and_in_the_exit_code() {
     let told: Value = serde_json::from_slice(&ended.stdout).unwrap();
     assert_eq!(told["verdict"], "bounds_missed", "{told}");
     assert_eq!(told["requirements"].as_array().map(Vec::len), Some(1), "{told}");
+
+    // Nothing is run again, and the requirement is missed still.
+    let require = ["--resume", "--require", "metric = \"pos_rmse_m\", at_most = 1e-9"];
+    let again = harness(&[&line[..], &require].concat());
+    assert_eq!(again.status.code(), Some(1), "{again:?}");
+    let told: Value = serde_json::from_slice(&again.stdout).unwrap();
+    assert_eq!(told["verdict"], "bounds_missed", "{told}");
 }
 
 /// Start values, units, meanings and presets come from the program; the FMUs are what is flown.

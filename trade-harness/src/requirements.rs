@@ -1,6 +1,7 @@
 //! What a plan requires, held to what its studies found.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde::Serialize;
 use study::{FilterResult, PhaseRun, PhaseSummary, Requirement, Study, StudyResult, Summary};
@@ -9,6 +10,12 @@ use crate::HarnessError;
 use crate::format::{number as short, wrapped};
 use crate::report::column::{self, Column, count, find, number, text};
 use crate::report::{phases, summary};
+
+/// The file of a study that holds them.
+pub const FILE: &str = "requirements.csv";
+
+/// Verdict on one that is not met.
+const MISSED: &str = "MISSED";
 
 /// A requirement, and what a filter did in one world and case.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -306,7 +313,7 @@ impl Verdict {
     }
 
     fn word(&self) -> &'static str {
-        if self.met { "met" } else { "MISSED" }
+        if self.met { "met" } else { MISSED }
     }
 }
 
@@ -369,6 +376,24 @@ pub(crate) const COLUMNS: &[Column<Verdict>] = &[
 /// [`HarnessError::Csv`].
 pub fn render_csv(verdicts: &[Verdict]) -> Result<Vec<u8>, HarnessError> {
     column::render(COLUMNS, verdicts)
+}
+
+/// How many requirements the study of a folder has missed, by its `requirements.csv`; none without one.
+///
+/// # Errors
+/// [`HarnessError::Csv`].
+pub fn missed_in(folder: &Path) -> Result<usize, HarnessError> {
+    let path = folder.join(FILE);
+    if !path.exists() {
+        return Ok(0);
+    }
+    let mut reader = csv::Reader::from_path(&path)?;
+    let place = reader.headers()?.iter().position(|name| name == "verdict");
+    let verdicts = reader
+        .records()
+        .map(|row| Ok(row?.get(place.unwrap_or(usize::MAX)) == Some(MISSED)));
+    let missed = verdicts.collect::<Result<Vec<_>, HarnessError>>()?;
+    Ok(missed.into_iter().filter(|missed| *missed).count())
 }
 
 /// What a terminal of 80 columns shows, by world and case, without a final newline.

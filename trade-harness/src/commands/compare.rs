@@ -14,6 +14,7 @@ use super::worker;
 use crate::HarnessError;
 use crate::cli::CompareArgs;
 use crate::format::json_bytes;
+use crate::requirements;
 use crate::store::{Claim, StudyFolder, identity};
 
 pub(super) fn compare(args: &CompareArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
@@ -88,8 +89,18 @@ pub(super) fn carry_out(plan: &Plan, models: &Models, way: &Way, out: &mut Out<'
         if judged.is_some_and(|judged| judged.requirements != plan.requirements) {
             return Err(HarnessError::OtherRequirements { path: place });
         }
-        out.say(&format!("{} holds this study, complete", place.display()))?;
-        return Ok(Verdict::Done);
+        let missed = requirements::missed_in(&place)?;
+        let told = if missed == 0 {
+            String::new()
+        } else {
+            format!("; it misses {missed} of its requirements")
+        };
+        out.say(&format!("{} holds this study, complete{told}", place.display()))?;
+        return Ok(if missed == 0 {
+            Verdict::Done
+        } else {
+            Verdict::BoundsMissed
+        });
     }
     let folder = StudyFolder::claim(&place, &identity, way.claim)?;
     let studies = cast(plan, models, folder.output().path())?;

@@ -101,7 +101,7 @@ impl<'a> Report<'a> {
         ])?;
         if !self.verdicts.is_empty() {
             let required = requirements::render_csv(&self.verdicts)?;
-            files.extend(folder.write_all(vec![("requirements.csv".to_owned(), required)])?);
+            files.extend(folder.write_all(vec![(requirements::FILE.to_owned(), required)])?);
         }
         let mut to_write = Vec::new();
         for (index, study) in named.iter().enumerate() {
