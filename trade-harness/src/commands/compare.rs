@@ -8,7 +8,7 @@ use super::finished::{Finished, finish};
 use super::kept::{KEPT, Kept, shard_folder};
 use super::out::Out;
 use super::progress::{run_watched, shard_watched};
-use super::rerun::Recorded;
+use super::recorded::Recorded;
 use super::shared::{Verdict, cast, end_when_asked, models, note, plan_of, scratch};
 use super::worker;
 use crate::HarnessError;

@@ -12,6 +12,7 @@ mod out;
 mod pack;
 mod preload;
 mod progress;
+mod recorded;
 mod replay;
 mod report;
 mod reproduce;

@@ -13,7 +13,7 @@ use study::{
 use super::list::known;
 use super::out::Out;
 use super::preload::start_again_with;
-use super::rerun::Recorded;
+use super::recorded::Recorded;
 use super::shared::{Verdict, changed, models, note, scratch};
 use crate::HarnessError;
 use crate::cli::ReplayArgs;
