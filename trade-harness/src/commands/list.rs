@@ -24,31 +24,29 @@ const NAV_XML: &str = include_str!("../../../modelDescription/fmu-nav/modelDescr
 
 pub(super) fn list(args: &ListArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     let nav = ModelDescription::parse(NAV_XML.as_bytes(), Path::new(NAV))?;
-    let name = args.name.as_deref();
-    let kind = match &args.what {
-        None => {
-            overview(&nav, out)?;
-            return Ok(Verdict::Done);
-        }
-        Some(Topic::Kind(kind)) => *kind,
-        Some(Topic::Named(name)) => {
-            named(&nav, name, out)?;
-            return Ok(Verdict::Done);
-        }
-    };
-    match kind {
-        Listed::Missions => missions(name, out)?,
-        Listed::Filters => filters(&nav, name, out)?,
-        Listed::Presets => sets(&nav, name, out)?,
-        Listed::Parameters => {
-            let truth = ModelDescription::parse(TRUTH_XML.as_bytes(), Path::new(TRUTH))?;
-            parameters_of(&truth, &nav, name, args.of.as_deref(), out)?;
-        }
-        Listed::Ports => ports(out)?,
-        Listed::Distributions => distributions(out)?,
-        Listed::Metrics => metrics(name, out)?,
+    match &args.what {
+        None => overview(&nav, out)?,
+        Some(Topic::Named(name)) => named(&nav, name, out)?,
+        Some(Topic::Kind(kind)) => all_of(*kind, args, &nav, out)?,
     }
     Ok(Verdict::Done)
+}
+
+/// Everything of a kind, or the one of them that is named.
+fn all_of(kind: Listed, args: &ListArgs, nav: &ModelDescription, out: &mut Out<'_>) -> Result<(), HarnessError> {
+    let name = args.name.as_deref();
+    match kind {
+        Listed::Missions => missions(name, out),
+        Listed::Filters => filters(nav, name, out),
+        Listed::Presets => sets(nav, name, out),
+        Listed::Parameters => {
+            let truth = ModelDescription::parse(TRUTH_XML.as_bytes(), Path::new(TRUTH))?;
+            parameters_of(&truth, nav, name, args.of.as_deref(), out)
+        }
+        Listed::Ports => ports(out),
+        Listed::Distributions => distributions(out),
+        Listed::Metrics => metrics(name, out),
+    }
 }
 
 /// A mission or a filter, whichever has this name.
