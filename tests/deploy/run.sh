@@ -2,6 +2,7 @@
 # Studies in parts, by xargs and by Dask with a worker killed half-way: the bytes of the whole.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+. tests/common/environment.sh
 
 work=target/deploy
 here=tests/deploy
@@ -18,14 +19,7 @@ echo "# xargs"
 deploy/xargs.sh 4 "$work/xargs" "${study[@]}" >/dev/null
 python3 "$here/same.py" "$work/whole" "$work/xargs"
 
-if ! cmp --silent "$here/requirements.txt" "$work/venv/requirements.txt"; then
-    if ! python3 -m venv --clear "$work/venv"; then
-        echo "SKIPPED Dask: needs the system package python3-venv"
-        exit 0
-    fi
-    "$python" -m pip install --quiet --disable-pip-version-check --requirement "$here/requirements.txt"
-    cp "$here/requirements.txt" "$work/venv/"
-fi
+environment "$work" "$here/requirements.txt" Dask
 echo "# Dask, one of two workers killed half-way"
 "$python" deploy/dask_study.py --parts 6 --workers 2 "$work/dask" "${study[@]}" >"$work/dask.log" 2>"$work/dask.err" &
 dask=$!

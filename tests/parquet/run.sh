@@ -2,20 +2,14 @@
 # Histories as Parquet files, read by pandas and polars, beside the CSV files.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+. tests/common/environment.sh
 
 work=target/parquet
 here=tests/parquet
 python=$work/venv/bin/python
 rm -rf "$work/leo_venting" "$work/formation" "$work"/replay_*
 mkdir -p "$work"
-if ! cmp --silent "$here/requirements.txt" "$work/venv/requirements.txt"; then
-    if ! python3 -m venv --clear "$work/venv"; then
-        echo "SKIPPED Parquet: needs the system package python3-venv"
-        exit 0
-    fi
-    "$python" -m pip install --quiet --disable-pip-version-check --requirement "$here/requirements.txt"
-    cp "$here/requirements.txt" "$work/venv/"
-fi
+environment "$work" "$here/requirements.txt" Parquet
 harness() { cargo run --release --quiet --package trade-harness --features parquet -- "$@" >/dev/null; }
 # Filters with each kind of column: without a covariance, with rows of the six of a metrology, without an acceleration.
 compare() {
