@@ -277,6 +277,12 @@ impl Navigator {
         if due {
             (step.dt, step.f, step.correction) = (whole.dt, whole.f, whole.correction);
             self.law.observe(&step)?;
+            if let Some(replacement) = self.law.replacement() {
+                estimator.replace(replacement);
+                if let Some(defect) = estimator.defect(t_s) {
+                    return Err(defect);
+                }
+            }
         } else {
             self.between = Some(whole);
         }

@@ -2,7 +2,7 @@
 
 use crate::error::FilterError;
 use crate::innovation::Innovation;
-use crate::laws::{Adaptation, Step};
+use crate::laws::{Adaptation, Replacement, Step};
 use crate::sample::Sample;
 use crate::state::{State, TargetMatrix};
 use nalgebra::Vector6;
@@ -47,6 +47,9 @@ pub(crate) trait Estimator {
     /// * `step`: what a law shall see; filled in.
     /// * returns: the innovation in SI; `None` when nothing was measured of the target.
     fn update(&mut self, sample: &Sample, step: &mut Step) -> Result<Option<Innovation>, FilterError>;
+
+    /// Puts relative position and velocity as a law has them in the place of the update's.
+    fn replace(&mut self, by: &Replacement);
 
     /// Number of the target's nine states that have a covariance; none under a constant gain.
     fn dimension(&self) -> usize;

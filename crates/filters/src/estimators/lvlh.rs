@@ -10,7 +10,7 @@ use crate::dynamics::relative::RelativeMotion;
 use crate::error::FilterError;
 use crate::gravity::Gravity;
 use crate::innovation::Innovation;
-use crate::laws::{Adaptation, Motion, Step};
+use crate::laws::{Adaptation, Motion, Replacement, Step};
 use crate::layout::Layout;
 use crate::sample::Sample;
 use crate::state::{N_TARGET, Rows, State, Target, TargetMatrix, idx};
@@ -197,6 +197,14 @@ impl Estimator for LvlhState {
         }
         step.correction = core.x - prior;
         Ok(Some(seen))
+    }
+
+    fn replace(&mut self, by: &Replacement) {
+        if let Some(core) = &mut self.core {
+            let mut mean = core.x.fixed_rows_mut::<6>(0);
+            mean += by.shift;
+            core.p.fixed_view_mut::<6, 6>(0, 0).copy_from(&by.p);
+        }
     }
 
     fn dimension(&self) -> usize {

@@ -1,5 +1,6 @@
 //! What a law is: it receives what every sample told and answers with the process noise of the steps to come.
 
+use super::bank::Replacement;
 use crate::disturbance::Disturbance;
 use crate::dynamics::AccelerationModel;
 use crate::error::FilterError;
@@ -79,6 +80,12 @@ pub trait Adaptation {
     /// When the law cannot go on; the filter stops with it.
     fn observe(&mut self, _step: &Step) -> Result<(), FilterError> {
         Ok(())
+    }
+
+    /// What stands in place of the update's mean and covariance after the sample last observed, for a law that keeps filters of
+    /// its own.
+    fn replacement(&self) -> Option<&Replacement> {
+        None
     }
 
     /// Square root of the jerk density per axis of the estimate now in use, internal units; zero for a law without one.

@@ -5,14 +5,19 @@
 //! `trade-harness list` and in every test that loops over [`FILTERS`].
 
 mod adaptation;
+mod bank;
+mod change_point;
 mod constrained_q;
 pub mod correlation;
 mod dmc;
 mod ekf_j2;
 mod entry;
 mod fixed_q;
+mod hybrid;
+mod imm;
 mod learner;
 mod milton;
+mod mmae;
 pub mod network;
 mod observer;
 mod rbfnn_aekf;
@@ -23,5 +28,6 @@ mod step_noise;
 mod window;
 
 pub use adaptation::{Adaptation, Setup, Step};
+pub use bank::Replacement;
 pub use entry::{FilterEntry, Motion, Search, Update};
 pub use registry::{FILTERS, Law};

@@ -1,6 +1,7 @@
 //! The registry of filters: one line each.
 
 use super::adaptation::{Adaptation, Setup, Step};
+use super::bank::Replacement;
 use super::entry::FilterEntry;
 use crate::disturbance::Disturbance;
 use crate::dynamics::AccelerationModel;
@@ -45,6 +46,10 @@ registry! {
     RbfnnEkf => rbfnn_ekf;
     Observer => observer;
     EkfJ2 => ekf_j2;
+    ChangePoint => change_point;
+    Hybrid => hybrid;
+    Imm => imm;
+    Mmae => mmae;
 }
 
 impl Law {
@@ -111,6 +116,9 @@ impl Adaptation for Law {
     }
     fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
         self.inner_mut().observe(step)
+    }
+    fn replacement(&self) -> Option<&Replacement> {
+        self.inner().replacement()
     }
     fn s(&self) -> Vector3<f64> {
         self.inner().s()

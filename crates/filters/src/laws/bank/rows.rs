@@ -1,0 +1,53 @@
+//! The measured rows of a sample, one behind the other.
+
+use crate::laws::Step;
+use crate::state::{MAX_ROWS, RowVector};
+use nalgebra::RowVector6;
+
+/// One measured row, internal units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::laws) struct Row {
+    /// Partials by relative position and velocity.
+    pub h: RowVector6<f64>,
+    /// Measured minus predicted at the centre.
+    pub innovation: f64,
+    /// Noise variance.
+    pub r: f64,
+}
+
+/// Every measured row of a sample. R is diagonal, so they can be taken one after the other: the innovation covariance of each is
+/// a number, and the product of their likelihoods is that of all.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::laws) struct Seen {
+    rows: [Row; MAX_ROWS],
+    count: usize,
+}
+
+impl Seen {
+    /// * `r`: noise variances in the places of the layout, internal units.
+    pub(in crate::laws) fn new(step: &Step, r: &RowVector) -> Self {
+        let nothing = Row {
+            h: RowVector6::zeros(),
+            innovation: 0.0,
+            r: 1.0,
+        };
+        let mut seen = Self {
+            rows: [nothing; MAX_ROWS],
+            count: 0,
+        };
+        for place in (0..MAX_ROWS).filter(|place| step.measured.has(*place)) {
+            seen.rows[seen.count] = Row {
+                h: step.h.fixed_view::<1, 6>(place, 0).into_owned(),
+                innovation: step.innovation[place],
+                r: r[place],
+            };
+            seen.count += 1;
+        }
+        seen
+    }
+
+    /// The rows in their order.
+    pub(in crate::laws) fn iter(&self) -> impl Iterator<Item = &Row> {
+        self.rows[..self.count].iter()
+    }
+}

@@ -1,0 +1,328 @@
+//! "The velocity changed by some amount at some time", kept open until the data decide.
+//!
+//! A vent is over before it can be seen: its effect grows out of the noise tens to hundreds of seconds later. So a quiet filter is
+//! accompanied by hypotheses, one for each of a set of past times t_j and sizes c: the velocity changed at t_j by D ~ N(0, c^2 I).
+//! Under a hypothesis the quiet filter's estimate is off by E D, its innovations by G D, with
+//!
+//! ```text
+//!     E <- F E,  G = H E,  C <- C + G' S^-1 G,  d <- d + G' S^-1 v,  E <- E - K G,   E = [0; I] at t_j,
+//! ```
+//!
+//! so that given the data D ~ N(V d, V), V = (C + I / c^2)^-1, and its weight against "no change" is
+//! rate_c * slot * exp(d' V d / 2) / sqrt(det(I + c^2 C)). The quiet filter is never run again.
+
+use super::centre::{Shared, white};
+use super::member::Member;
+use super::mixture::{Mixture, Replacement};
+use crate::units::Units;
+use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3, Vector6};
+use serde::{Deserialize, Serialize};
+
+/// Sizes of a change, m/s.
+pub(in crate::laws) const SIZES: [f64; 5] = [1e-4, 1e-3, 1e-2, 1e-1, 1.0];
+/// Changes of each size that are expected in [`PRIOR_TIME`] before any has been seen.
+const PRIOR_COUNT: [f64; 5] = [0.3, 0.06, 0.012, 0.0024, 0.00048];
+/// s.
+const PRIOR_TIME: f64 = 600.0;
+/// Ages at which hypotheses are thinned, and the distance that they then keep, s.
+const THINNED: [(f64, f64); 3] = [(0.0, 5.0), (30.0, 10.0), (80.0, 40.0)];
+/// Age at which a hypothesis is folded into the quiet filter, s.
+const OLDEST: f64 = 320.0;
+/// Weight of "no change" below which the mixture takes the place of the quiet filter.
+const DECIDED: f64 = 0.02;
+/// Weights below this share of the largest count for nothing.
+const NEGLIGIBLE: f64 = 1e-9;
+
+/// What a user may set; SI.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::laws) struct Parameters {
+    /// Square root of the quiet filter's white acceleration density, m/s^1.5.
+    pub quiet: f64,
+    /// Factor on the rates at which changes are expected.
+    pub rate: f64,
+}
+
+/// The quiet filter and its hypotheses; internal units.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(in crate::laws) struct VelocityChanges {
+    second: f64,
+    sizes: [f64; 5],
+    density: f64,
+    prior: [f64; 5],
+    quiet: Member<6>,
+    /// The oldest first.
+    open: Vec<Hypothesis>,
+    /// Changes that have been found, by size.
+    found: [f64; 5],
+    /// Time since the first sample, s.
+    elapsed: f64,
+    /// Time since the last was opened, s.
+    since: f64,
+    decisions: i32,
+    /// Weights, means and second moments of the hypotheses; of the newest sample.
+    weighed: Weighed,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Hypothesis {
+    /// E, 6x3.
+    e: Matrix6x3<f64>,
+    /// C, 3x3, and d.
+    c: Matrix3<f64>,
+    d: Vector3<f64>,
+    /// s.
+    age: f64,
+    /// Time from the start to its own, in units of the closest spacing.
+    slot: u64,
+    /// Time to the next one opened, s.
+    span: f64,
+}
+
+/// Every hypothesis against "no change", whose weight is 1.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+struct Weighed {
+    /// Logarithm of the sum of all weights.
+    ln_total: f64,
+    /// Weight of "no change", of all.
+    quiet: f64,
+    /// One for each hypothesis.
+    parts: Vec<Part>,
+}
+
+/// All sizes of one hypothesis.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+struct Part {
+    /// Weights by size, of all.
+    weights: [f64; 5],
+    /// Weighted sum of D.
+    first: Vector3<f64>,
+    /// Weighted sum of V + D D'.
+    second: Matrix3<f64>,
+}
+
+impl VelocityChanges {
+    pub(in crate::laws) fn new(parameters: &Parameters, units: &Units) -> Self {
+        let unit = units.velocity() / units.time.sqrt();
+        Self {
+            second: 1.0 / units.time,
+            sizes: SIZES.map(|c| c / units.velocity()),
+            density: (parameters.quiet / unit).powi(2),
+            prior: PRIOR_COUNT.map(|n| n * parameters.rate),
+            quiet: Member {
+                dx: Vector6::zeros(),
+                p: Matrix6::zeros(),
+            },
+            open: Vec::new(),
+            found: [0.0; 5],
+            elapsed: 0.0,
+            since: f64::INFINITY,
+            decisions: 0,
+            weighed: Weighed {
+                quiet: 1.0,
+                ..Weighed::default()
+            },
+        }
+    }
+
+    /// White acceleration density of the quiet filter.
+    pub(in crate::laws) fn density(&self) -> f64 {
+        self.density
+    }
+
+    /// How often the mixture has taken the place of the quiet filter.
+    pub(in crate::laws) fn decisions(&self) -> i32 {
+        self.decisions
+    }
+
+    /// Takes a sample in.
+    ///
+    /// * returns: its log-likelihood under the whole mixture, as [`Member::update`] has it.
+    pub(in crate::laws) fn take(&mut self, shared: &Shared) -> f64 {
+        let dt = shared.dt / self.second;
+        self.elapsed += dt;
+        self.since += dt;
+        for hypothesis in &mut self.open {
+            hypothesis.age += dt;
+            hypothesis.e = shared.f * hypothesis.e;
+        }
+        shared.predict(&mut self.quiet, &shared.f, &white(self.density, shared.dt), 0.0);
+        self.thin();
+        let before = self.weigh();
+        let mut log_likelihood = 0.0;
+        for row in shared.seen.iter() {
+            let taken = self.quiet.take(row);
+            log_likelihood += taken.log_likelihood();
+            for hypothesis in &mut self.open {
+                let g = (row.h * hypothesis.e).transpose();
+                hypothesis.c.ger(1.0 / taken.s, &g, &g, 1.0);
+                hypothesis.d.axpy(taken.innovation / taken.s, &g, 1.0);
+                hypothesis.e.ger(-1.0, &taken.gain, &g, 1.0);
+            }
+        }
+        shared.follow(&mut self.quiet);
+        self.weighed = self.weigh();
+        log_likelihood += self.weighed.ln_total - before.ln_total;
+        if self.weighed.quiet < DECIDED {
+            self.decide();
+        }
+        self.open_next();
+        log_likelihood
+    }
+
+    /// Mean and covariance of the mixture.
+    pub(in crate::laws) fn moments(&self) -> Replacement {
+        let mut mixture = Mixture::default();
+        mixture.add(self.weighed.quiet, &self.quiet.dx, &self.quiet.p);
+        for (hypothesis, part) in self.open.iter().zip(&self.weighed.parts) {
+            let weight: f64 = part.weights.iter().sum();
+            if weight > NEGLIGIBLE {
+                let off = hypothesis.e * part.first / weight;
+                let mean = self.quiet.dx + off;
+                let spread = hypothesis.e * (part.second / weight) * hypothesis.e.transpose();
+                // About zero: the quiet filter's own, and off as if the quiet filter's mean were zero.
+                let mut second = self.quiet.p + spread;
+                second.ger(1.0, &self.quiet.dx, &self.quiet.dx, 1.0);
+                second.ger(1.0, &self.quiet.dx, &off, 1.0);
+                second.ger(1.0, &off, &self.quiet.dx, 1.0);
+                mixture.add_second(weight, &mean, &second);
+            }
+        }
+        mixture.moments()
+    }
+
+    /// Deviations are from another mean now.
+    pub(in crate::laws) fn shift(&mut self, shift: &Vector6<f64>) {
+        self.quiet.dx -= shift;
+    }
+
+    /// Logarithm of the changes of each size that are expected in the time for which a hypothesis stands.
+    fn ln_priors(&self, hypothesis: &Hypothesis) -> [f64; 5] {
+        let slot = spacing(hypothesis.age).max(hypothesis.span).min(hypothesis.age);
+        std::array::from_fn(|i| ((self.prior[i] + self.found[i]) / (PRIOR_TIME + self.elapsed) * slot).ln())
+    }
+
+    fn weigh(&self) -> Weighed {
+        let log_weights: Vec<([f64; 5], [(Vector3<f64>, Matrix3<f64>); 5])> = self
+            .open
+            .iter()
+            .map(|hypothesis| {
+                let ln_priors = self.ln_priors(hypothesis);
+                let posts = self.sizes.map(|c| hypothesis.given(c));
+                let logs = std::array::from_fn(|i| ln_priors[i] + posts[i].0);
+                (logs, posts.map(|(_, mean, v)| (mean, v)))
+            })
+            .collect();
+        let logs = log_weights.iter().flat_map(|(logs, _)| logs.iter().copied());
+        let most = logs.clone().fold(0.0, f64::max);
+        let sum = (-most).exp() + logs.map(|log| (log - most).exp()).sum::<f64>();
+        let ln_total = most + sum.ln();
+        let parts = log_weights.iter().map(|(logs, posts)| {
+            let mut part = Part::default();
+            for ((weight, log), (mean, v)) in part.weights.iter_mut().zip(logs).zip(posts) {
+                *weight = (log - ln_total).exp();
+                part.first += mean * *weight;
+                part.second += v * *weight;
+                part.second.ger(*weight, mean, mean, 1.0);
+            }
+            part
+        });
+        Weighed {
+            ln_total,
+            quiet: (-ln_total).exp(),
+            parts: parts.collect(),
+        }
+    }
+
+    /// The mixture takes the place of the quiet filter.
+    fn decide(&mut self) {
+        let Replacement { shift, p } = self.moments();
+        let counts: Vec<[f64; 5]> = self.weighed.parts.iter().map(|part| part.weights).collect();
+        counts.iter().for_each(|weights| self.count(weights));
+        self.quiet = Member { dx: shift, p };
+        self.open.clear();
+        self.weighed = Weighed {
+            quiet: 1.0,
+            ..Weighed::default()
+        };
+        self.decisions += 1;
+    }
+
+    fn count(&mut self, weights: &[f64; 5]) {
+        for (found, weight) in self.found.iter_mut().zip(weights) {
+            *found += weight;
+        }
+    }
+
+    /// Drops what stands closer than its age allows, and folds in what is too old.
+    fn thin(&mut self) {
+        while let Some(oldest) = self.open.first()
+            && oldest.age > OLDEST
+        {
+            self.fold_oldest();
+        }
+        let first = spacing(0.0);
+        self.open.retain(|hypothesis| {
+            let every = (spacing(hypothesis.age) / first).round().max(1.0) as u64;
+            hypothesis.slot.is_multiple_of(every)
+        });
+    }
+
+    /// The oldest hypothesis and "no change" become one.
+    fn fold_oldest(&mut self) {
+        let oldest = self.open.remove(0);
+        if self.weighed.parts.is_empty() {
+            return;
+        }
+        let part = self.weighed.parts.remove(0);
+        let weight: f64 = part.weights.iter().sum();
+        if weight > NEGLIGIBLE {
+            self.count(&part.weights);
+            let share = weight / (weight + self.weighed.quiet);
+            let off = oldest.e * part.first / weight;
+            self.quiet.dx += off * share;
+            self.quiet.p += oldest.e * (part.second * (share / weight)) * oldest.e.transpose();
+            self.quiet.p.ger(-share * share, &off, &off, 1.0);
+        }
+    }
+
+    fn open_next(&mut self) {
+        if self.since < spacing(0.0) - 1e-9 {
+            return;
+        }
+        if let Some(last) = self.open.last_mut() {
+            last.span = self.since;
+        }
+        let mut e = Matrix6x3::zeros();
+        e.fixed_view_mut::<3, 3>(3, 0).fill_with_identity();
+        self.open.push(Hypothesis {
+            e,
+            c: Matrix3::zeros(),
+            d: Vector3::zeros(),
+            age: 0.0,
+            slot: (self.elapsed / spacing(0.0)).round() as u64,
+            span: 0.0,
+        });
+        self.weighed.parts.push(Part::default());
+        self.since = 0.0;
+    }
+}
+
+impl Hypothesis {
+    /// A change of this size, given the data: logarithm of its likelihood against "no change", mean V d, covariance V.
+    fn given(&self, size: f64) -> (f64, Vector3<f64>, Matrix3<f64>) {
+        let precision = self.c + Matrix3::from_diagonal_element(1.0 / (size * size));
+        let Some(v) = precision.try_inverse() else {
+            return (f64::NEG_INFINITY, Vector3::zeros(), Matrix3::zeros());
+        };
+        let mean = v * self.d;
+        // det(I + c^2 C) = c^6 det(C + I / c^2).
+        let ln_det = (precision.determinant() * size.powi(6)).ln();
+        (0.5 * (self.d.dot(&mean) - ln_det), mean, v)
+    }
+}
+
+/// How far apart hypotheses of this age stand, s.
+fn spacing(age: f64) -> f64 {
+    let reached = THINNED.iter().take_while(|(from, _)| age >= *from);
+    reached.last().map_or(THINNED[0].1, |(_, spacing)| *spacing)
+}

@@ -1,0 +1,116 @@
+//! A quiet filter and the question whether the velocity has changed: the answer is left open until the data give it.
+
+use super::adaptation::{Adaptation, Setup, Step};
+use super::bank::velocity_change::{Parameters, VelocityChanges};
+use super::bank::{Centre, Replacement};
+use super::entry::{FilterEntry, Motion, Search, Update};
+use crate::dynamics::AccelerationModel;
+use crate::error::FilterError;
+use crate::jerk;
+use crate::state::TargetMatrix;
+use crate::tunable::{Bound, Kind, Preset, Start, Tunable};
+use serde::{Deserialize, Serialize};
+
+pub(super) const ENTRY: FilterEntry = FilterEntry {
+    name: "change_point",
+    about: "quiet filter with hypotheses of velocity changes at past times, weighed by the data",
+    motion: Motion::OfFrame,
+    update: Update::Kalman,
+    tunables: &[QUIET, RATE],
+    presets: &[Preset {
+        name: "paper",
+        about: "the constants of docs/laws.md, the same in every mission",
+        other_reading: false,
+        sets: &[],
+    }],
+    search: &[
+        Search {
+            tunable: QUIET.name,
+            low: 1e-7,
+            high: 1e-3,
+        },
+        Search {
+            tunable: RATE.name,
+            low: 1e-2,
+            high: 1e2,
+        },
+    ],
+};
+
+/// Tunable `quiet`.
+pub(super) const QUIET: Tunable = Tunable {
+    name: "quiet",
+    about: "square root of the acceleration density of the filter that knows of no change",
+    kind: Kind::Real {
+        start: Start::Fixed(2e-6),
+        unit: "m/s^1.5",
+        bound: Bound::Positive,
+    },
+};
+
+/// Tunable `rate`.
+pub(super) const RATE: Tunable = Tunable {
+    name: "rate",
+    about: "factor on the rates at which changes of velocity are expected before any has been seen",
+    kind: Kind::Real {
+        start: Start::Fixed(1.0),
+        unit: "",
+        bound: Bound::Positive,
+    },
+};
+
+/// The quiet filter and its hypotheses as the tunables say.
+///
+/// # Errors
+/// When a tunable is out of range.
+pub(super) fn velocity_changes(setup: &Setup<'_>) -> Result<VelocityChanges, FilterError> {
+    let parameters = Parameters {
+        quiet: setup.tunables.real(QUIET.name)? * setup.off_nominal.sqrt(),
+        rate: setup.tunables.real(RATE.name)?,
+    };
+    Ok(VelocityChanges::new(&parameters, &setup.units))
+}
+
+/// Hypotheses of velocity changes.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ChangePoint {
+    centre: Centre,
+    changes: VelocityChanges,
+}
+
+impl ChangePoint {
+    /// # Errors
+    /// When a tunable is out of range.
+    pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        Ok(Self {
+            centre: Centre::new(setup.r),
+            changes: velocity_changes(setup)?,
+        })
+    }
+}
+
+impl Adaptation for ChangePoint {
+    fn acceleration(&self) -> AccelerationModel {
+        AccelerationModel::Absent
+    }
+
+    fn process_noise(&self, dt: f64) -> TargetMatrix {
+        jerk::white_acceleration(self.centre.density(), dt)
+    }
+
+    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
+        self.changes.take(&self.centre.shared(step));
+        let mixture = self.changes.moments();
+        self.changes.shift(&mixture.shift);
+        self.centre.say(mixture, self.changes.density());
+        Ok(())
+    }
+
+    fn replacement(&self) -> Option<&Replacement> {
+        self.centre.said()
+    }
+
+    fn updates(&self) -> i32 {
+        self.changes.decisions()
+    }
+}

@@ -1,0 +1,138 @@
+//! A bank of what each kind of disturbance asks for: velocity-change hypotheses for vents and burns, white accelerations by the
+//! decade for what never stops, a walking acceleration for what lasts.
+
+use super::adaptation::{Adaptation, Setup, Step};
+use super::bank::velocity_change::VelocityChanges;
+use super::bank::{Centre, Member, Mixture, Replacement, Weights};
+use super::change_point::{QUIET, RATE, velocity_changes};
+use super::entry::{FilterEntry, Motion, Update};
+use super::mmae::{Decades, MEMORY};
+use crate::dynamics::AccelerationModel;
+use crate::error::FilterError;
+use crate::jerk;
+use crate::state::{Target, TargetMatrix};
+use crate::tunable::{Preset, Tunables};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// White accelerations, square roots of the densities, m/s^1.5.
+const WHITE: [f64; 5] = [1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
+/// Walking accelerations, square roots of the jerk densities, m/s^2.5.
+const WALKING: [f64; 2] = [1e-8, 1e-7];
+/// Weight of the hypotheses at the start; the white ones halve by the decade, and share the rest with the walking ones.
+const PRIOR_CHANGES: f64 = 0.7;
+
+pub(super) const ENTRY: FilterEntry = FilterEntry {
+    name: "hybrid",
+    about: "bank of velocity-change hypotheses, white accelerations by the decade and walking accelerations",
+    motion: Motion::OfFrame,
+    update: Update::Kalman,
+    tunables: &[QUIET, RATE, MEMORY],
+    presets: &[Preset {
+        name: "paper",
+        about: "the constants of docs/laws.md, the same in every mission",
+        other_reading: false,
+        sets: &[],
+    }],
+    search: &[],
+};
+
+/// The bank; its weights stand in the order: changes, white, walking.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Hybrid {
+    centre: Centre,
+    changes: VelocityChanges,
+    white: Decades,
+    walking: Vec<Walking>,
+    weights: Weights,
+    /// Variance of an acceleration at the start, internal units.
+    acceleration: f64,
+}
+
+/// A filter whose acceleration walks.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Walking {
+    /// Jerk density, internal units.
+    density: f64,
+    member: Member<9>,
+}
+
+impl Hybrid {
+    /// # Errors
+    /// When a tunable is out of range.
+    pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        let Tunables { told, .. } = &setup.tunables;
+        let mut prior = vec![PRIOR_CHANGES];
+        let rest = WHITE.len() + WALKING.len();
+        let halving = (0..rest).map(|k| 0.5_f64.powi(k.min(WHITE.len()) as i32));
+        let halving: Vec<f64> = halving.collect();
+        let sum: f64 = halving.iter().sum();
+        prior.extend(halving.iter().map(|w| (1.0 - PRIOR_CHANGES) * w / sum));
+        let walking = WALKING.map(|s| Walking {
+            density: (s / setup.units.root_jerk_density()).powi(2) * setup.off_nominal,
+            member: Member {
+                dx: Target::zeros(),
+                p: TargetMatrix::zeros(),
+            },
+        });
+        Ok(Self {
+            centre: Centre::new(setup.r),
+            changes: velocity_changes(setup)?,
+            white: Decades::new(&WHITE, setup),
+            walking: walking.to_vec(),
+            weights: Weights::new(&prior, setup.tunables.real(MEMORY.name)? / setup.units.time),
+            acceleration: (told.p0.acceleration / setup.units.acceleration()).powi(2),
+        })
+    }
+}
+
+impl Adaptation for Hybrid {
+    fn acceleration(&self) -> AccelerationModel {
+        AccelerationModel::Absent
+    }
+
+    fn process_noise(&self, dt: f64) -> TargetMatrix {
+        jerk::white_acceleration(self.centre.density(), dt)
+    }
+
+    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
+        let shared = self.centre.shared(step);
+        let mut likelihoods = vec![self.changes.take(&shared)];
+        self.white.take(&shared, &mut likelihoods);
+        let f = shared.with_acceleration();
+        for Walking { density, member } in &mut self.walking {
+            let noise = jerk::process_noise(&Vector3::repeat(*density), shared.dt);
+            likelihoods.push(shared.take(member, &f, &noise, self.acceleration));
+        }
+        self.weights.update(shared.dt, &likelihoods);
+
+        let weights = self.weights.get();
+        let (of_white, of_walking) = weights[1..].split_at(self.white.members.len());
+        let mut mixture = Mixture::default();
+        let changes = self.changes.moments();
+        mixture.add(weights[0], &changes.shift, &changes.p);
+        self.white.add_to(&mut mixture, of_white);
+        for (Walking { member, .. }, weight) in self.walking.iter().zip(of_walking) {
+            let dx = member.dx.fixed_rows::<6>(0).into_owned();
+            mixture.add(*weight, &dx, &member.p.fixed_view::<6, 6>(0, 0).into_owned());
+        }
+        let mixture = mixture.moments();
+        let density = weights[0] * self.changes.density() + self.white.density(of_white);
+        self.changes.shift(&mixture.shift);
+        self.white.shift(&mixture.shift);
+        for Walking { member, .. } in &mut self.walking {
+            let mut deviation = member.dx.fixed_rows_mut::<6>(0);
+            deviation -= mixture.shift;
+        }
+        self.centre.say(mixture, density);
+        Ok(())
+    }
+
+    fn replacement(&self) -> Option<&Replacement> {
+        self.centre.said()
+    }
+
+    fn updates(&self) -> i32 {
+        self.changes.decisions()
+    }
+}

@@ -1,0 +1,119 @@
+//! Interacting multiple models over constant white-acceleration densities (Blom and Bar-Shalom, 1988).
+
+use super::adaptation::{Adaptation, Setup, Step};
+use super::bank::{Centre, Mixture, Replacement};
+use super::entry::{FilterEntry, Motion, Search, Update};
+use super::mmae::{DECADES, Decades};
+use crate::dynamics::AccelerationModel;
+use crate::error::FilterError;
+use crate::jerk;
+use crate::state::TargetMatrix;
+use crate::tunable::{Bound, Kind, Preset, Start, Tunable};
+use serde::{Deserialize, Serialize};
+
+pub(super) const ENTRY: FilterEntry = FilterEntry {
+    name: "imm",
+    about: "interacting multiple models over six snc filters, a decade of q apart",
+    motion: Motion::OfFrame,
+    update: Update::Kalman,
+    tunables: &[SOJOURN],
+    presets: &[Preset {
+        name: "paper",
+        about: "the constants of docs/laws.md, the same in every mission",
+        other_reading: false,
+        sets: &[],
+    }],
+    search: &[Search {
+        tunable: SOJOURN.name,
+        low: 1.0,
+        high: 1e5,
+    }],
+};
+
+const SOJOURN: Tunable = Tunable {
+    name: "sojourn",
+    about: "mean time that the target keeps to one of the models",
+    kind: Kind::Real {
+        start: Start::Fixed(300.0),
+        unit: "s",
+        bound: Bound::Positive,
+    },
+};
+
+/// A bank whose members mix their states before every sample.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Imm {
+    centre: Centre,
+    decades: Decades,
+    weights: Vec<f64>,
+    sojourn: f64,
+}
+
+impl Imm {
+    /// # Errors
+    /// When a tunable is out of range.
+    pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        Ok(Self {
+            centre: Centre::new(setup.r),
+            decades: Decades::new(&DECADES, setup),
+            weights: vec![1.0 / DECADES.len() as f64; DECADES.len()],
+            sojourn: setup.tunables.real(SOJOURN.name)? / setup.units.time,
+        })
+    }
+
+    /// Mixes the members as a Markov chain would have moved between them over `dt`: it stays with probability e^(-dt / T), else
+    /// it goes to any of the others alike.
+    fn mix(&mut self, dt: f64) {
+        let count = self.weights.len();
+        let leave = -(-dt / self.sojourn).exp_m1() / (count - 1) as f64;
+        let from = |i: usize, j: usize| {
+            let stay = if i == j { 1.0 - leave * count as f64 } else { 0.0 };
+            self.weights[i] * (stay + leave)
+        };
+        let mut mixed = Vec::with_capacity(count);
+        for to in 0..count {
+            let mut mixture = Mixture::default();
+            let into: Vec<f64> = (0..count).map(|i| from(i, to)).collect();
+            self.decades.add_to(&mut mixture, &into);
+            mixed.push((into.iter().sum::<f64>(), mixture.moments()));
+        }
+        for ((member, weight), (sum, mixture)) in self.decades.members.iter_mut().zip(&mut self.weights).zip(mixed) {
+            (member.dx, member.p, *weight) = (mixture.shift, mixture.p, sum);
+        }
+    }
+}
+
+impl Adaptation for Imm {
+    fn acceleration(&self) -> AccelerationModel {
+        AccelerationModel::Absent
+    }
+
+    fn process_noise(&self, dt: f64) -> TargetMatrix {
+        jerk::white_acceleration(self.centre.density(), dt)
+    }
+
+    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
+        let shared = self.centre.shared(step);
+        if self.centre.said().is_some() {
+            self.mix(shared.dt);
+        }
+        let mut likelihoods = Vec::with_capacity(self.weights.len());
+        self.decades.take(&shared, &mut likelihoods);
+        let most = likelihoods.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        for (weight, log) in self.weights.iter_mut().zip(&likelihoods) {
+            *weight *= (log - most).exp();
+        }
+        let sum: f64 = self.weights.iter().sum();
+        self.weights.iter_mut().for_each(|weight| *weight /= sum);
+        let mut mixture = Mixture::default();
+        self.decades.add_to(&mut mixture, &self.weights);
+        let mixture = mixture.moments();
+        self.decades.shift(&mixture.shift);
+        self.centre.say(mixture, self.decades.density(&self.weights));
+        Ok(())
+    }
+
+    fn replacement(&self) -> Option<&Replacement> {
+        self.centre.said()
+    }
+}

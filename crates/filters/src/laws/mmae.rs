@@ -1,0 +1,140 @@
+//! Multiple-model adaptive estimation over constant white-acceleration densities.
+
+use super::adaptation::{Adaptation, Setup, Step};
+use super::bank::{Centre, Member, Mixture, Replacement, Shared, Weights, white};
+use super::entry::{FilterEntry, Motion, Update};
+use crate::dynamics::AccelerationModel;
+use crate::error::FilterError;
+use crate::jerk;
+use crate::state::TargetMatrix;
+use crate::tunable::{Bound, Kind, Preset, Start, Tunable};
+use nalgebra::{Matrix6, Vector6};
+use serde::{Deserialize, Serialize};
+
+/// Members: one for each decade of the root density, m/s^1.5.
+pub(super) const DECADES: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
+
+pub(super) const ENTRY: FilterEntry = FilterEntry {
+    name: "mmae",
+    about: "multiple-model adaptive estimation over six snc filters, a decade of q apart",
+    motion: Motion::OfFrame,
+    update: Update::Kalman,
+    tunables: &[MEMORY],
+    presets: &[Preset {
+        name: "paper",
+        about: "the constants of docs/laws.md, the same in every mission",
+        other_reading: false,
+        sets: &[],
+    }],
+    search: &[],
+};
+
+/// Tunable `memory`.
+pub(super) const MEMORY: Tunable = Tunable {
+    name: "memory",
+    about: "time in which the weights of the members return to what they were at the start",
+    kind: Kind::Real {
+        start: Start::Fixed(3000.0),
+        unit: "s",
+        bound: Bound::Positive,
+    },
+};
+
+/// State-noise filters of constant density.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Decades {
+    /// White acceleration densities, internal units.
+    pub densities: Vec<f64>,
+    /// One for each.
+    pub members: Vec<Member<6>>,
+}
+
+impl Decades {
+    /// * `roots`: square roots of the densities, m/s^1.5.
+    pub(super) fn new(roots: &[f64], setup: &Setup<'_>) -> Self {
+        let unit = setup.units.velocity() / setup.units.time.sqrt();
+        let member = Member {
+            dx: Vector6::zeros(),
+            p: Matrix6::zeros(),
+        };
+        Self {
+            densities: roots.iter().map(|q| (q / unit).powi(2) * setup.off_nominal).collect(),
+            members: vec![member; roots.len()],
+        }
+    }
+
+    /// Takes a sample in; log-likelihoods are added to `into`.
+    pub(super) fn take(&mut self, shared: &Shared, into: &mut Vec<f64>) {
+        for (member, density) in self.members.iter_mut().zip(&self.densities) {
+            into.push(shared.take(member, &shared.f, &white(*density, shared.dt), 0.0));
+        }
+    }
+
+    /// Adds the members to a mixture.
+    pub(super) fn add_to(&self, mixture: &mut Mixture, weights: &[f64]) {
+        for (member, weight) in self.members.iter().zip(weights) {
+            mixture.add(*weight, &member.dx, &member.p);
+        }
+    }
+
+    /// Mean density with these weights.
+    pub(super) fn density(&self, weights: &[f64]) -> f64 {
+        self.densities.iter().zip(weights).map(|(q, w)| q * w).sum()
+    }
+
+    /// Deviations are from another mean now.
+    pub(super) fn shift(&mut self, shift: &Vector6<f64>) {
+        self.members.iter_mut().for_each(|member| member.dx -= shift);
+    }
+}
+
+/// A bank whose members keep their states to themselves.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Mmae {
+    centre: Centre,
+    decades: Decades,
+    weights: Weights,
+}
+
+impl Mmae {
+    /// # Errors
+    /// When a tunable is out of range.
+    pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        Ok(Self {
+            centre: Centre::new(setup.r),
+            decades: Decades::new(&DECADES, setup),
+            weights: Weights::new(
+                &[1.0; DECADES.len()],
+                setup.tunables.real(MEMORY.name)? / setup.units.time,
+            ),
+        })
+    }
+}
+
+impl Adaptation for Mmae {
+    fn acceleration(&self) -> AccelerationModel {
+        AccelerationModel::Absent
+    }
+
+    fn process_noise(&self, dt: f64) -> TargetMatrix {
+        jerk::white_acceleration(self.centre.density(), dt)
+    }
+
+    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
+        let shared = self.centre.shared(step);
+        let mut likelihoods = Vec::with_capacity(DECADES.len());
+        self.decades.take(&shared, &mut likelihoods);
+        self.weights.update(shared.dt, &likelihoods);
+        let weights = self.weights.get();
+        let mut mixture = Mixture::default();
+        self.decades.add_to(&mut mixture, weights);
+        let mixture = mixture.moments();
+        self.decades.shift(&mixture.shift);
+        self.centre.say(mixture, self.decades.density(weights));
+        Ok(())
+    }
+
+    fn replacement(&self) -> Option<&Replacement> {
+        self.centre.said()
+    }
+}
