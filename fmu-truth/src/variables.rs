@@ -175,6 +175,12 @@ fn sensor_row(t: &mut Builder, port: &'static Port, slot: Slot) {
 
 /// The true state at the communication point.
 fn truth_row(t: &mut Builder, port: &'static Port) {
+    if port.kind == Kind::Boolean {
+        let row = t.boolean(port.name).output().about(port.about(0));
+        row.initially_from("a_dist_t_n")
+            .get(|m| m.read(|s| s.now().event_active));
+        return;
+    }
     let part: fn(&Moment, usize) -> f64 = match port.name {
         "truth.r_tc_n" => |now, i| now.state.r_tc()[i],
         "truth.v_tc_n" => |now, i| now.state.v_tc()[i],
@@ -255,6 +261,7 @@ mod tests {
         for (name, value) in expected {
             assert_eq!(real(&model, name).to_bits(), value.to_bits(), "{name}");
         }
+        assert!(now.event_active, "an input pushes the target");
     }
 
     #[test]

@@ -43,6 +43,8 @@ pub enum Command {
     Report(ReportArgs),
     /// Search for every filter's best parameters, then compare the filters at their best
     Tune(TuneArgs),
+    /// Hold laws against the best constant noise, chosen in hindsight for each level of disturbance
+    Regret(RegretArgs),
     /// Write one run out, sample by sample
     Replay(ReplayArgs),
     /// Rerun everything the two papers print and hold it beside their numbers
@@ -567,7 +569,7 @@ pub struct TuneArgs {
     /// The error to make small
     #[arg(long, value_enum, default_value_t = Objective::Position)]
     pub objective: Objective,
-    /// Least mean NEES over its dimension that a candidate may have
+    /// Least mean NEES of position and velocity, over 6, that a candidate may have
     #[arg(long, value_name = "NEES", default_value_t = 0.5, allow_negative_numbers = true)]
     pub nees_min: f64,
     /// Largest
@@ -586,6 +588,42 @@ pub struct TuneArgs {
     /// made with PythonFMU need; repeatable
     #[arg(long, value_name = "LIB")]
     pub preload: Vec<PathBuf>,
+    /// Which filters, which parameters.
+    #[command(flatten)]
+    pub study: StudyArgs,
+}
+
+/// `regret`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  trade-harness regret --filters hybrid,imm --runs 30\n  trade-harness regret --scenario leo_venting,nrho_venting,formation --nav mine=my_filter.fmu\n  trade-harness regret --at vents_10,vents_100\n  trade-harness regret --print-levels > levels.toml\n\nEach level that is through is kept in DIR/trials, and not run again."
+)]
+#[command(mut_arg("filters", |a| a.help("Laws, each with a preset if it is not 'paper' [default: hybrid, change_point, imm, mmae, milton@consistent, constrained_q, rbfnn_ekf]")))]
+pub struct RegretArgs {
+    /// Which worlds.
+    #[command(flatten)]
+    pub worlds: WorldArgs,
+    /// How many runs.
+    #[command(flatten)]
+    pub work: WorkArgs,
+    /// Only these levels
+    #[arg(long, value_name = "LEVEL,...", value_delimiter = ',')]
+    pub at: Vec<String>,
+    /// Levels and constants from a file of your own
+    #[arg(long, value_name = "FILE")]
+    pub levels: Option<PathBuf>,
+    /// Print the file of levels that comes with the project, and end
+    #[arg(long)]
+    pub print_levels: bool,
+    /// Runs by which the constants are chosen that then fly every run
+    #[arg(long, value_name = "RUNS", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=i64::from(i32::MAX)))]
+    pub scouts: u32,
+    /// Folder for the results
+    #[arg(long, value_name = "DIR", default_value = "results/regret")]
+    pub out: PathBuf,
+    /// Replace trials of other settings
+    #[arg(long)]
+    pub force: bool,
     /// Which filters, which parameters.
     #[command(flatten)]
     pub study: StudyArgs,

@@ -150,6 +150,26 @@ pub enum HarnessError {
         /// Largest.
         high: f64,
     },
+    /// A file of levels is none.
+    #[error("{file}: {problem}; 'trade-harness regret --print-levels' shows one")]
+    Levels {
+        /// Which.
+        file: String,
+        /// What is wrong, and what is allowed.
+        problem: String,
+    },
+    /// Nothing is left to try.
+    #[error("no level of that name is for these missions; there are: {known}")]
+    NoLevel {
+        /// Names.
+        known: String,
+    },
+    /// A trial of other settings stands there.
+    #[error("{} holds a trial of other settings or FMUs: give another --out, or --force to replace it", path.display())]
+    OtherRegret {
+        /// The file.
+        path: PathBuf,
+    },
     /// A search would be judged in the worlds it was made in.
     #[error(
         "--seed and --judge-seed are both {seed}: filters would be judged in the worlds they were tuned in; give two seeds"

@@ -7,7 +7,7 @@
 //! since a paper quotes its drift.
 //!
 //! Start reading at [`commands`], which is what the command line offers; [`report`] writes the tables, [`tuning`] searches
-//! for a filter's best parameters, [`claims`] and [`reproduce`] hold what the papers print beside what the studies find, and
+//! for a filter's best parameters, [`regret`] holds laws against the best constant, [`claims`] and [`reproduce`] hold what the papers print beside what the studies find, and
 //! [`pack`] makes our FMUs.
 
 pub mod bound;
@@ -21,6 +21,7 @@ pub mod output;
 pub mod pack;
 #[cfg_attr(not(feature = "parquet"), path = "no_parquet.rs")]
 pub mod parquet;
+pub mod regret;
 pub mod report;
 pub mod reproduce;
 pub mod requirements;

@@ -50,7 +50,7 @@ fn a_tally_says_what_a_study_says() {
             (tally.rmse(Quantity::Position), row.position.rmse),
             (tally.rmse(Quantity::Velocity), row.velocity.rmse),
             (tally.rmse(Quantity::Acceleration), row.acceleration.rmse),
-            (tally.nees(), row.nees.mean),
+            (tally.nees6(), row.nees6.mean),
         ] {
             assert_eq!(ours.is_some(), theirs.is_some(), "{}", row.filter);
             // Only the order of the sums differs.
@@ -165,7 +165,7 @@ fn a_limit_of_the_nees_is_kept_where_it_costs_accuracy() {
     let best = tuning.filters[0].best().unwrap();
     assert!(best.standing.feasible());
     // NEES goes with the square of the error: a factor of 2 on the error, as a decade away from the best gain.
-    let nees = best.tally.nees().unwrap() / least;
+    let nees = best.tally.nees6().unwrap() / least;
     assert!((4.0..4.4).contains(&nees), "{nees}");
     let decades = (best.values.as_ref().unwrap()[0] / BEST_GAIN).log10().abs();
     assert!((1.0..1.05).contains(&decades), "{decades}");

@@ -5,10 +5,10 @@ use crate::dynamics::AccelerationModel;
 use crate::error::FilterError;
 use crate::estimators::{Gap, Kind, Reported};
 use crate::innovation::Innovation;
-use crate::laws::{Adaptation, FILTERS, FilterEntry, Law, Setup, Step, Update, registry};
+use crate::laws::{Adaptation, FILTERS, FilterEntry, Law, Replacement, Setup, Step, Update, registry};
 use crate::layout::Layout;
 use crate::sample::Sample;
-use crate::state::{State, Target, TargetMatrix};
+use crate::state::{RowVector, State, Target, TargetMatrix};
 use crate::tunable::{Tunables, Value};
 use crate::units::Units;
 use interface::Bound::Positive;
@@ -267,7 +267,7 @@ impl Navigator {
         };
         let f = estimator.propagate(&gap, sample, &self.law)?;
         let mut step = Step::blank(gap_s / self.units.time, f);
-        let seen = estimator.update(sample, &mut step)?;
+        let mut seen = estimator.update(sample, &mut step)?;
         if let Some(defect) = estimator.defect(t_s) {
             return Err(defect);
         }
@@ -277,11 +277,12 @@ impl Navigator {
         if due {
             (step.dt, step.f, step.correction) = (whole.dt, whole.f, whole.correction);
             self.law.observe(&step)?;
-            if let Some(replacement) = self.law.replacement() {
-                estimator.replace(replacement);
-                if let Some(defect) = estimator.defect(t_s) {
+            if let Some(own) = self.law.replacement() {
+                estimator.shift(&own.shift);
+                if let Some(defect) = estimator.defect(t_s).or_else(|| own.defect(t_s)) {
                     return Err(defect);
                 }
+                seen = seen.map(|seen| restated(&seen, own, &step, self.layout));
             }
         } else {
             self.between = Some(whole);
@@ -376,6 +377,22 @@ impl Navigator {
     /// How often the law passed an update by because its window was singular.
     pub fn skipped(&self) -> i32 {
         self.law.skipped()
+    }
+}
+
+/// An innovation as a law sees it that keeps filters of its own: the residual is of the mean, which is the law's already.
+fn restated(seen: &Innovation, own: &Replacement, step: &Step, layout: Layout) -> Innovation {
+    let ratio = RowVector::from_fn(|i, _| {
+        if step.measured.has(i) {
+            own.variance[i] / step.s[(i, i)]
+        } else {
+            0.0
+        }
+    });
+    Innovation {
+        variance: seen.variance.component_mul(&layout.to_channels(&ratio)),
+        nis: own.nis,
+        ..*seen
     }
 }
 

@@ -176,7 +176,8 @@ fn long_intervals_are_survived() {
             for k in 1..=6000 {
                 let sample = world.step();
                 if k % every == 0 {
-                    nav.process(&sample, &start).unwrap();
+                    nav.process(&sample, &start)
+                        .unwrap_or_else(|e| panic!("{label}, every {every} s: {e}"));
                 }
             }
             let miss = (nav.estimate().x.fixed_rows::<9>(0) - world.truth())

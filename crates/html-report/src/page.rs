@@ -16,7 +16,7 @@ use crate::verdict::{RunValues, Verdict};
 const WORST: usize = 5;
 
 /// Column of `summary.csv`, heading, unit.
-const TABLE: [(&str, &str, &str); 13] = [
+const TABLE: [(&str, &str, &str); 14] = [
     ("pos_rmse_m", "position RMSE", "m"),
     ("pos_rmse_se_m", "standard error", "m"),
     ("vel_rmse_m_s", "velocity RMSE", "m/s"),
@@ -27,6 +27,7 @@ const TABLE: [(&str, &str, &str); 13] = [
     ("mean_err_sigma", "mean error", "σ"),
     ("nees", "NEES", ""),
     ("nees_inside", "NEES in bounds", ""),
+    ("nees6", "NEES position, velocity", ""),
     ("nis", "NIS", ""),
     ("failed", "failed", ""),
     ("diverged", "diverged", ""),

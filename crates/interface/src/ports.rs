@@ -267,6 +267,9 @@ pub const PORTS: &[Port] = &[
     row(Truth, "truth.d_lvlh", Real, Vector(3), &["m/s2"],
         &["true relative acceleration less that of Clohessy-Wiltshire motion, LVLH axes, just after this time; with metrology"]),
 
+    row(Truth, "truth.event_active", Boolean, Scalar, &[],
+        &["whether a vent, or a burn or a_dist_t_n that no filter is told of, pushes the target just after this time"]),
+
     row(Estimate, "est.time", Real, Scalar, &["s"], &["epoch of the sample last used"]),
     row(Estimate, "est.count", Integer, Scalar, &[], &["ordinal of the sample last used"]),
     row(Estimate, "est.dimension", Integer, Scalar, &[],

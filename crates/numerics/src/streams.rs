@@ -55,6 +55,10 @@ pub enum Source {
     Bootstrap = 20,
     /// The linear system that statistics are tried on.
     Calibration = 21,
+    /// The target's acceleration that wanders.
+    Wander = 22,
+    /// The target's white acceleration.
+    WhiteAcceleration = 23,
 }
 
 /// Generator for one cause of randomness in one run; equal arguments give equal streams.

@@ -8,7 +8,15 @@ use crate::{Bounds, StatsError, mean_chi_square_bounds};
 #[derive(Debug, Clone, Default)]
 pub struct ChiSquareEnsemble {
     cells: Vec<Cell>,
+    /// Values, and those of them beyond what one in a thousand exceeds.
+    values: u64,
+    beyond: u64,
+    /// That bound by degrees of freedom; not a number where it is not known yet.
+    rare: Vec<f64>,
 }
+
+/// Confidence of the two-sided bounds whose upper one a value exceeds once in a thousand.
+const RARE: f64 = 0.998;
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Cell {
@@ -35,10 +43,30 @@ impl ChiSquareEnsemble {
         if self.cells.len() <= epoch {
             self.cells.resize(epoch + 1, Cell::default());
         }
+        self.values += 1;
+        self.beyond += u64::from(value > self.rare(freedom));
         let cell = &mut self.cells[epoch];
         cell.freedom += freedom;
         cell.sum += value * f64::from(freedom);
         Ok(())
+    }
+
+    /// Value over its degrees of freedom that one in a thousand exceeds.
+    fn rare(&mut self, freedom: u32) -> f64 {
+        let place = freedom as usize;
+        if self.rare.len() <= place {
+            self.rare.resize(place + 1, f64::NAN);
+        }
+        if self.rare[place].is_nan() {
+            let bounds = mean_chi_square_bounds(1, place, RARE);
+            self.rare[place] = bounds.map_or(f64::INFINITY, |bounds| bounds.high);
+        }
+        self.rare[place]
+    }
+
+    /// Share of the values, over runs and time, that are beyond what one in a thousand exceeds by chance; `None` without values.
+    pub fn share_beyond(&self) -> Option<f64> {
+        (self.values > 0).then(|| self.beyond as f64 / self.values as f64)
     }
 
     /// Bounds of the mean over the runs at the epoch that has most degrees of freedom; `None` without values.
@@ -83,6 +111,17 @@ mod tests {
         assert!((bounds.low - 0.3247).abs() < 1e-4 && (bounds.high - 2.0483).abs() < 1e-4);
         assert!(e.add(1, f64::NAN, 3).is_err());
         assert_eq!(ChiSquareEnsemble::default().share_inside(0.95), None);
+        assert_eq!(ChiSquareEnsemble::default().share_beyond(), None);
         assert!(ChiSquareEnsemble::default().bounds(0.95).is_none());
+    }
+
+    /// Chi-square tables, 99.9 %: of 6 degrees 22.458, of 3 degrees 16.266.
+    #[test]
+    fn rare_values_are_counted_by_their_own_degrees() {
+        let mut e = ChiSquareEnsemble::default();
+        for (value, freedom) in [(22.4, 6), (22.5, 6), (16.2, 3), (16.3, 3), (17.0, 6)] {
+            e.add(0, value / f64::from(freedom), freedom).unwrap();
+        }
+        assert_eq!(e.share_beyond(), Some(0.4));
     }
 }

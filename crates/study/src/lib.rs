@@ -82,7 +82,7 @@ pub use starts::check_real_range;
 pub use stop::{stop, stop_asked};
 pub use study::{Engine, Study, StudyResult};
 pub use summary::{QuantitySummary, ScalarSummary, Summary};
-pub use tally::{Tally, evaluate};
+pub use tally::{Ratio, RunTally, Tally, evaluate, evaluate_each, ratio};
 pub use tuned::TunedSet;
 pub use variation::{DISTRIBUTIONS, Distribution, Variation, Varied};
 pub use worker::{Limits, serve};

@@ -10,6 +10,9 @@ use crate::participant::Participant;
 use crate::samples::{SAME_TIME, TruthSample};
 use crate::world::{Frame, World};
 
+/// How long a push counts after its end, s.
+const A_MINUTE: f64 = 60.0;
+
 /// Most phases of a world: a bit each in a record.
 const MOST: usize = 32;
 
@@ -47,7 +50,7 @@ impl Phases {
             field: "phase",
             problem,
         };
-        let [scored, vents, quiet] = Phase::OWN.map(|name| Phase {
+        let [scored, vents, quiet, after_push, calm] = Phase::OWN.map(|name| Phase {
             name: name.to_owned(),
             ..Phase::default()
         });
@@ -58,6 +61,14 @@ impl Phases {
                 vents: Some(acts),
                 ..phase
             }));
+            rules.push(Phase {
+                pushed_within_s: Some(A_MINUTE),
+                ..after_push
+            });
+            rules.push(Phase {
+                calm_for_s: Some(A_MINUTE),
+                ..calm
+            });
         }
         rules.extend(world.mission.study.phases.iter().chain(own).cloned());
         for (place, phase) in rules.iter().enumerate() {
@@ -124,7 +135,8 @@ impl Phases {
     fn holds(&self, rule: &Phase, truth: &TruthSample) -> bool {
         let time = truth.time;
         let range = truth.position.norm();
-        let acts = |wanted: bool| truth.acceleration.is_some_and(|a| (a.norm() > 0.0) == wanted);
+        let acts = |wanted: bool| (truth.since_push == Some(0.0)) == wanted;
+        let pushed = |within: f64| truth.since_push.is_some_and(|since| since <= within + SAME_TIME);
         let after = |length: f64| {
             let since = |end: &f64| (-SAME_TIME..=length + SAME_TIME).contains(&(time - end));
             self.burn_ends.iter().any(since)
@@ -135,6 +147,8 @@ impl Phases {
             && rule.range_to_m.is_none_or(|to| range <= to)
             && rule.vents.is_none_or(acts)
             && rule.after_burn_s.is_none_or(after)
+            && rule.pushed_within_s.is_none_or(pushed)
+            && rule.calm_for_s.is_none_or(|length| !pushed(length))
     }
 }
 
@@ -178,7 +192,9 @@ mod tests {
         let sample = |t: u32| TruthSample {
             time: f64::from(t),
             position: Vector3::new(0.0, f64::from(t), 0.0),
-            acceleration: Some(Vector3::x() * f64::from(u8::from((500..510).contains(&t)))),
+            since_push: (t >= 500)
+                .then(|| f64::from(t.saturating_sub(510)))
+                .map(|s| if t < 510 { 0.0 } else { s }),
             ..TruthSample::default()
         };
         (1..=1000)

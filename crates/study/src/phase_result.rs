@@ -29,6 +29,8 @@ pub struct PhaseResult {
     pub nees6: ChiSquareEnsemble,
     /// NIS over its rows, by epoch.
     pub nis: ChiSquareEnsemble,
+    /// NEES of position and velocity alone over 6.
+    pub nees6_values: LogHistogram,
     bit: u32,
     sample_period: f64,
 }
@@ -74,6 +76,7 @@ impl PhaseResult {
             nees: ChiSquareEnsemble::default(),
             nees6: ChiSquareEnsemble::default(),
             nis: ChiSquareEnsemble::default(),
+            nees6_values: LogHistogram::default(),
             bit,
             sample_period,
         }
@@ -98,6 +101,9 @@ impl PhaseResult {
                     histogram.add(square.sqrt());
                     *largest = Some(largest.unwrap_or(0.0).max(square.sqrt()));
                 }
+            }
+            if let Some(nees6) = record.nees6() {
+                self.nees6_values.add(nees6);
             }
             for (value, freedom, ensemble, sum) in [
                 (record.nees(), record.dimension, &mut self.nees, &mut run.nees),

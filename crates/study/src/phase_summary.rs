@@ -38,6 +38,10 @@ pub struct PhaseSummary {
     pub nees: ChiSquareSummary,
     /// NEES of position and velocity alone over 6.
     pub nees6: ChiSquareSummary,
+    /// Median of it over runs and time, to 0.024 %.
+    pub nees6_median: Option<f64>,
+    /// Share of its values that one in a thousand exceeds by chance.
+    pub nees6_beyond: Option<f64>,
     /// NIS over its rows.
     pub nis: ChiSquareSummary,
 }
@@ -103,6 +107,8 @@ impl PhaseSummary {
             never_back: (!back.is_empty()).then_some(never),
             nees: ChiSquareSummary::new(&phase.nees, pooled(phase, |run| run.nees)),
             nees6: ChiSquareSummary::new(&phase.nees6, pooled(phase, |run| run.nees6)),
+            nees6_median: phase.nees6_values.median(),
+            nees6_beyond: phase.nees6.share_beyond(),
             nis: ChiSquareSummary::new(&phase.nis, pooled(phase, |run| run.nis)),
             ..Self::default()
         }

@@ -107,6 +107,38 @@ pub(crate) struct TruthReader {
     bias: Option<VectorHandle>,
     chaser: Option<[VectorHandle; 2]>,
     measured: Vec<Handle<bool>>,
+    event: Option<Handle<bool>>,
+    /// Whether the acceleration is of the target alone.
+    inertial: bool,
+    push: Push,
+}
+
+/// What is known of the pushes that no filter is told of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Push {
+    Never,
+    Acts,
+    /// First epoch without, s.
+    Over(f64),
+}
+
+impl Push {
+    /// What is known after a sample at which one acts or does not.
+    fn then(self, acts: bool, time: f64) -> Self {
+        match self {
+            _ if acts => Self::Acts,
+            Self::Acts => Self::Over(time),
+            before => before,
+        }
+    }
+
+    fn since(self, time: f64) -> Option<f64> {
+        match self {
+            Self::Never => None,
+            Self::Acts => Some(0.0),
+            Self::Over(end) => Some(time - end),
+        }
+    }
 }
 
 impl TruthReader {
@@ -143,6 +175,9 @@ impl TruthReader {
             bias: signals.bias.and_then(|[name, _]| body.vec3(name).ok()),
             chaser,
             measured,
+            event: body.boolean("truth.event_active").ok(),
+            inertial: frame == Frame::Inertial,
+            push: Push::Never,
             body: body.sample(),
         })
     }
@@ -158,13 +193,22 @@ impl TruthReader {
         context.read(&mut self.body).ok()?;
         let x = &self.body;
         let vector = |handle| Vector3::from(x.get(handle));
+        let acceleration = self.acceleration.map(vector);
+        // A truth that does not say so is taken to push by its acceleration, unless that is one of the formation's frame.
+        let acts = match self.event {
+            Some(event) => x.get(event),
+            None => self.inertial && acceleration.is_some_and(|a| a.norm() > 0.0),
+        };
+        let time = x.get(self.time);
+        self.push = self.push.then(acts, time);
         Some(TruthSample {
             count,
             epoch: 0,
-            time: x.get(self.time),
+            time,
+            since_push: self.push.since(time),
             position: vector(self.position),
             velocity: vector(self.velocity),
-            acceleration: self.acceleration.map(vector),
+            acceleration,
             bias: self.bias.map(vector),
             chaser: self.chaser.map(|[r, v]| (vector(r), vector(v))),
             // A truth that says nothing of its sensors is taken to measure at each sample.

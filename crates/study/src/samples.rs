@@ -29,6 +29,8 @@ pub struct TruthSample {
     pub chaser: Option<(Vector3<f64>, Vector3<f64>)>,
     /// Whether a sensor that sees the target measured it at this sample.
     pub measured: bool,
+    /// Time since something that no filter is told of has pushed the target, s: 0 while it does; `None` where it never has.
+    pub since_push: Option<f64>,
 }
 
 /// What a filter answers after one sample, in the axes of its variables, SI.

@@ -95,7 +95,7 @@ impl Spec {
     }
 
     /// The same study with some of its filters, by their places.
-    pub(crate) fn subset(&self, filters: &[usize]) -> Self {
+    pub fn subset(&self, filters: &[usize]) -> Self {
         let chosen = filters.iter().filter_map(|place| self.filters.get(*place).cloned());
         Self {
             world: self.world.clone(),

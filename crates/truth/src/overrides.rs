@@ -112,7 +112,7 @@ impl Params {
             mission,
             study_seed: self.study_seed.into(),
             run: self.run.into(),
-            vent_scale: 1.0,
+            vent_scale: VentScale::default(),
             target_burn: TargetBurn::default(),
         };
         if !self.burn_enabled {
@@ -156,9 +156,37 @@ pub struct Run {
     /// Number of the run.
     pub run: u64,
     /// Multiplies every vent.
-    pub vent_scale: f64,
+    pub vent_scale: VentScale,
     /// A manoeuvre of the target that the filter is not told of.
     pub target_burn: TargetBurn,
+}
+
+/// A factor on the size of vents, which may be another one for those that begin late.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VentScale {
+    /// Of every vent.
+    pub factor: f64,
+    /// Of those that begin then or later, if it is another one.
+    pub late: Option<f64>,
+    /// s since the start of the run.
+    pub late_from_s: f64,
+}
+
+impl Default for VentScale {
+    fn default() -> Self {
+        Self {
+            factor: 1.0,
+            late: None,
+            late_from_s: 0.0,
+        }
+    }
+}
+
+impl VentScale {
+    /// That of a vent which begins at `start`, s since the start of the run.
+    pub fn at(&self, start: f64) -> f64 {
+        self.late.filter(|_| start >= self.late_from_s).unwrap_or(self.factor)
+    }
 }
 
 /// A manoeuvre of the target, axes N.
@@ -322,7 +350,7 @@ const GENERAL: &[Parameter] = &[
         mission!(|m, v| m.time.sample_period_s = v)),
     Parameter { name: Cow::Borrowed("vent.scale"), unit: "", len: 1, start: 1.0, bound: NonNegative, own: false,
         about: Cow::Borrowed("multiplies every vent magnitude; 0 switches vents off"),
-        effect: Effect::Run(|run, v| run.vent_scale = v.first().copied().unwrap_or(1.0)) },
+        effect: Effect::Run(|run, v| run.vent_scale.factor = v.first().copied().unwrap_or(1.0)) },
     own("accelerometer.sigma", "m/s2", NonNegative, "standard deviation of the noise per sample and axis; 0: noise-free",
         accelerometer!(|s, v| s.sigma_m_s2 = v)),
     own("accelerometer.bias0", "m/s2", AtLeast(-0.5), "bias at the start time, on each body axis",
@@ -357,6 +385,20 @@ const GENERAL: &[Parameter] = &[
         mission!(|m, v| m.target.mass_kg = v)),
     own("chaser.mass", "kg", AtLeast(1e-3), "mass of the chaser, against which air and light push it",
         mission!(|m, v| m.chaser.mass_kg = v)),
+    Parameter { name: Cow::Borrowed("vent.scale_late"), unit: "", len: 1, start: OWN, bound: NonNegative, own: true,
+        about: Cow::Borrowed("multiplies the magnitude of vents that begin at vent.late_from or later, in the place of vent.scale"),
+        effect: Effect::Run(|run, v| run.vent_scale.late = v.first().copied()) },
+    Parameter { name: Cow::Borrowed("vent.late_from"), unit: "s", len: 1, start: 0.0, bound: NonNegative, own: false,
+        about: Cow::Borrowed("from when on vent.scale_late holds, counted from the start time"),
+        effect: Effect::Run(|run, v| run.vent_scale.late_from_s = v.first().copied().unwrap_or_default()) },
+    own("unmodelled.wander_sigma", "m/s2", NonNegative,
+        "acceleration of the target that wanders and that no filter is told of, steady standard deviation per axis N; 0: none",
+        mission!(|m, v| m.unmodelled.wander_sigma_m_s2 = v)),
+    own("unmodelled.wander_time_constant", "s", Positive, "time constant with which it wanders",
+        mission!(|m, v| m.unmodelled.wander_time_constant_s = v)),
+    own("unmodelled.white", "m/s^1.5", NonNegative,
+        "white acceleration of the target that no filter is told of, square root of its density per axis N; 0: none",
+        mission!(|m, v| m.unmodelled.white_m_s1_5 = v)),
 ];
 
 /// The parameters of one sensor of the target.
@@ -416,7 +458,7 @@ mod tests {
             mission: mission(),
             study_seed: 1,
             run: 0,
-            vent_scale: 1.0,
+            vent_scale: VentScale::default(),
             target_burn: TargetBurn::default(),
         }
     }

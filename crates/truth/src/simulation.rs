@@ -9,6 +9,7 @@ use sensors::{accelerometer, metrology, normal3};
 use serde::{Deserialize, Serialize};
 
 use crate::disturbances::schedule;
+use crate::disturbances::unmodelled::Unmodelled;
 use crate::environment::Sky;
 use crate::initial::{draw_estimate, draw_measurement};
 use crate::overrides::Run;
@@ -36,6 +37,7 @@ impl Inputs {
     fn add_to(&self, mut push: Push) -> Push {
         push.chaser.n += self.a_cmd_c_n;
         push.target.n += self.a_dist_t_n;
+        push.unannounced |= self.a_dist_t_n != Vector3::zeros();
         push
     }
 
@@ -58,8 +60,10 @@ pub struct Moment {
     pub time: f64,
     /// Both vehicles, axes N, SI.
     pub state: Vehicles,
-    /// Acceleration of the target by vents, burns and input just after the communication point, N, m/s2.
+    /// Acceleration of the target by vents, burns, input and what never stops just after the communication point, N, m/s2.
     pub a_t_n: Vector3<f64>,
+    /// Whether a vent, or a burn or input that no filter is told of, pushes the target just after it.
+    pub event_active: bool,
     /// Accelerometer bias, chaser body axes, m/s2.
     pub b_c_bc: Vector3<f64>,
     /// Motion in the axes of the target's orbit, in missions with metrology.
@@ -147,6 +151,8 @@ pub struct Simulation {
     sky: Sky,
     state: Vehicles,
     bias: Bias,
+    /// What acts over the present interval and never stops.
+    unmodelled: Unmodelled,
     felt: Felt,
     /// Inputs that act over the present interval, once it has been entered.
     latched: Option<Inputs>,
@@ -177,10 +183,11 @@ impl Simulation {
         let sensors = Sensors::new(&run);
         let reference = reference(&run.mission, &world, &state, sensors.measure_in_lvlh());
         let bias = Bias::new(&run);
+        let unmodelled = Unmodelled::new(&run, world.grid);
         let begin = Instant {
             sky: world.sky(0.0),
             state,
-            push: inputs.add_to(world.push_over(&timeline, 0)),
+            push: inputs.add_to(unmodelled.add_to(world.push_over(&timeline, 0))),
             b_c_bc: bias.now,
         };
         let now = moment(&world, reference.as_ref(), start_time, &begin);
@@ -201,6 +208,7 @@ impl Simulation {
             sky: begin.sky,
             state,
             bias,
+            unmodelled,
             felt: Felt::default(),
             latched: None,
             sensors,
@@ -320,6 +328,7 @@ impl Simulation {
                 self.felt.there = None;
             }
             self.bias.step(grid);
+            self.unmodelled.step();
             self.interval += 1;
             self.latched = None;
             finite(&self.state, self.start_time + until)?;
@@ -403,7 +412,10 @@ impl Simulation {
 
     /// What acts over the present interval, given the inputs that act.
     fn push(&self, inputs: &Inputs) -> Push {
-        inputs.add_to(self.world.push_over(&self.timeline, self.interval))
+        inputs.add_to(
+            self.unmodelled
+                .add_to(self.world.push_over(&self.timeline, self.interval)),
+        )
     }
 }
 
@@ -444,6 +456,7 @@ fn moment(world: &World, reference: Option<&ClohessyWiltshire>, time: f64, insta
         time,
         state: *state,
         a_t_n: world.push_on_target(sky.t, state, &push.target),
+        event_active: push.unannounced,
         b_c_bc: *b_c_bc,
         relative: reference.map(|reference| Relative::new(world, sky, state, push, reference)),
     }

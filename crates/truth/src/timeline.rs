@@ -50,6 +50,8 @@ pub struct Push {
     pub target: Thrust,
     /// On the chaser.
     pub chaser: Thrust,
+    /// Whether something that no filter is told of pushes the target: a vent, a burn, an input.
+    pub unannounced: bool,
 }
 
 /// Which vehicle an event pushes.
@@ -74,6 +76,13 @@ pub enum Vector {
     Rtn(Vector3<f64>),
 }
 
+impl Vector {
+    fn is_zero(&self) -> bool {
+        let (Self::N(a) | Self::Inertial(a) | Self::Body(a) | Self::Rtn(a)) = self;
+        *a == Vector3::zeros()
+    }
+}
+
 /// One push with its time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Event {
@@ -89,6 +98,8 @@ pub struct Event {
     pub acceleration: Vector,
     /// Whether it takes part in finding the start from the end.
     pub back_propagated: bool,
+    /// Whether filters are told of it.
+    pub told: bool,
 }
 
 impl Event {
@@ -103,6 +114,8 @@ impl Event {
         n_from_inertial: impl Fn(&Vector3<f64>) -> Vector3<f64>,
     ) {
         let share = self.profile.mean(begin - self.start, length, self.duration);
+        let of_target = self.side == Side::Target;
+        push.unannounced |= of_target && !self.told && share != 0.0 && !self.acceleration.is_zero();
         let thrust = match self.side {
             Side::Target => &mut push.target,
             Side::Chaser => &mut push.chaser,
@@ -176,7 +189,27 @@ mod tests {
             side: Side::Target,
             acceleration: Vector::N(Vector3::new(x, 0.0, 0.0)),
             back_propagated: true,
+            told: false,
         }
+    }
+
+    #[test]
+    fn what_filters_are_not_told_of_is_said_while_it_pushes_the_target() {
+        let at = |event: Event, begin: f64| Timeline::new(vec![event]).push_over(begin, 1.0, |v| *v).unannounced;
+        let vent = event(2.5, 3.0, 1e-5);
+        assert_eq!(
+            [0.0, 1.0, 2.0, 5.0, 6.0].map(|t| at(vent, t)),
+            [false, false, true, true, false]
+        );
+        assert!(!at(Event { told: true, ..vent }, 3.0));
+        assert!(!at(
+            Event {
+                side: Side::Chaser,
+                ..vent
+            },
+            3.0
+        ));
+        assert!(!at(event(2.5, 3.0, 0.0), 3.0), "a vent of no size is none");
     }
 
     #[test]

@@ -13,6 +13,7 @@ mod pack;
 mod preload;
 mod progress;
 mod recorded;
+mod regret;
 mod replay;
 mod report;
 mod reproduce;
@@ -76,6 +77,7 @@ pub fn execute(cli: Cli) -> ExitCode {
         Command::Merge(args) => merge::merge(&args, &mut out),
         Command::Report(args) => report::report(&args, &mut out),
         Command::Tune(args) => tune::tune(&args, &mut out),
+        Command::Regret(args) => regret::regret(&args, &mut out),
         Command::Replay(args) => replay::replay(&args, &mut out),
         Command::Rerun(args) => rerun::rerun(&args, &mut out),
         Command::Reproduce(args) => reproduce::reproduce(&args, &mut out),

@@ -59,6 +59,9 @@ pub(crate) const COLUMNS: &[Column<Row>] = &[
         r.best.acceleration.rmse
     }),
     number("nees", "1", "mean NEES over its dimension", |r| r.best.nees.mean),
+    number("nees6", "1", "mean NEES of position and velocity alone, over 6", |r| {
+        r.best.nees6.mean
+    }),
     number("nis", "1", "mean NIS over its rows", |r| r.best.nis.mean),
     text("objective", "the error that the search made small", |r| {
         r.objective.name().into()
@@ -123,6 +126,7 @@ impl<'a> Ranking<'a> {
                 error(Objective::Velocity),
                 error(Objective::Acceleration),
                 format::number(row.best.nees.mean),
+                format::number(row.best.nees6.mean),
                 format::number(row.best.nis.mean),
                 row.best.failed.to_string(),
                 row.best.diverged.to_string(),
@@ -194,7 +198,7 @@ const SHOWN: [(&str, &str); 8] = [
     ("pos RMSE\n[m]", "pos_rmse_m"),
     ("vel RMSE\n[m/s]", "vel_rmse_m_s"),
     ("acc RMSE\n[m/s2]", "acc_rmse_m_s2"),
-    ("NEES", "nees"),
+    ("NEES6", "nees6"),
     ("failed", "failed"),
     ("diver-\nged", "diverged"),
 ];
@@ -203,12 +207,13 @@ const SHOWN: [(&str, &str); 8] = [
 const LONGEST: usize = 17;
 
 /// Headings of the table with all columns; the objective's column of the given filter tells by how much the search helped.
-const HEADERS: [&str; 12] = [
+const HEADERS: [&str; 13] = [
     "filter",
     "pos RMSE\n[m]",
     "vel RMSE\n[m/s]",
     "acc RMSE\n[m/s2]",
     "NEES",
+    "NEES6",
     "NIS",
     "failed",
     "diverged",
@@ -225,12 +230,12 @@ fn is_text(column: usize) -> bool {
 /// How to read the table that fits 80 columns.
 pub const LEGEND: &str = "\
 rank: place by what the filters were tuned for; the other errors come with it;
-NEES: 1 on average when consistent; untuned: RMSE of the filter as named to
---filters, in the same worlds. More columns: --wide, best.md and best.csv";
+NEES6: of position and velocity, 1 on average when consistent; untuned: RMSE of
+the filter as named to --filters, in the same worlds. More columns: --wide, best.md and best.csv";
 
 /// How to read the table with all columns.
 pub const WIDE_LEGEND: &str = "\
-in brackets: place by what the filters were tuned for, the other errors being what comes with it; NEES, NIS: 1 on average when consistent
+in brackets: place by what the filters were tuned for, the other errors being what comes with it; NEES, NIS: 1 on average when consistent; NEES6: of position and velocity alone
 objective as given: RMSE of the filter as named to --filters, in the same worlds
 nav: time in the filter's fmi2DoStep";
 

@@ -26,6 +26,11 @@ pub fn all() -> Vec<FileColumns> {
         FileColumns::new("failures.csv", "a run without a result", runs::FAILURES),
         FileColumns::new("timing.csv", "a world, filter and case", timing::COLUMNS),
         FileColumns::new("best.csv", "a filter at its own best, by tune", best::COLUMNS),
+        FileColumns::new(
+            "regret.csv",
+            "a mission, level and filter, by regret",
+            crate::regret::COLUMNS,
+        ),
         FileColumns::new("search.csv", "a candidate of a search, by tune", searched::COLUMNS),
     ];
     tables.into_iter().chain(histories::all()).collect()

@@ -12,7 +12,7 @@ pub const COLUMNS: &[Column<PhaseSummary>] = &[
     text("case", "case", |p| p.case.as_str().into()),
     text(
         "phase",
-        "part of the run: scored is the scored time, vents and quiet are those of it with and without an acceleration of the target, others are the mission's and the study's",
+        "part of the run: scored is the scored time, vents and quiet are those of it with and without an unannounced push on the target, after_push reaches until a minute after one and calm is the rest; others are the mission's and the study's",
         |p| p.phase.as_str().into(),
     ),
     count("runs", "runs asked for", |p| Some(p.runs as u64)),
@@ -150,6 +150,18 @@ pub const COLUMNS: &[Column<PhaseSummary>] = &[
         p.nees6.bounds.map(|[_, high]| high)
     }),
     number("nees6_inside", "1", "as nees_inside, of nees6", |p| p.nees6.inside),
+    number(
+        "nees6_median",
+        "1",
+        "median of nees6 over runs and time, to 0.024 %; 0.891 when consistent",
+        |p| p.nees6_median,
+    ),
+    number(
+        "nees6_beyond",
+        "1",
+        "share of the estimates whose nees6 is beyond what one in a thousand exceeds by chance; 0.001 when consistent",
+        |p| p.nees6_beyond,
+    ),
     number("nis", "1", "mean NIS over its rows; 1 when consistent", |p| p.nis.mean),
     number("nis_low", "1", "as nees_low, of nis", |p| {
         p.nis.bounds.map(|[low, _]| low)

@@ -40,8 +40,8 @@ pub(crate) const COLUMNS: &[Column<Line>] = &[
     number("value", "m, m/s or m/s2", "RMSE of the objective", |l| {
         l.evaluation.tally.rmse(l.objective.quantity())
     }),
-    number("nees", "1", "mean NEES over its dimension", |l| {
-        l.evaluation.tally.nees()
+    number("nees6", "1", "mean NEES of position and velocity alone, over 6", |l| {
+        l.evaluation.tally.nees6()
     }),
     count("failed", "runs that ended with an error", |l| {
         Some(l.evaluation.tally.failed.into())
@@ -54,7 +54,7 @@ pub(crate) const COLUMNS: &[Column<Line>] = &[
     }),
     count(
         "feasible",
-        "1 when no run went wrong and the NEES is within its limits",
+        "1 when no run went wrong and nees6 is within its limits",
         |l| Some(l.evaluation.standing.feasible().into()),
     ),
 ];

@@ -25,7 +25,7 @@ pub fn notes(searched: &Searched, options: &Options) -> Vec<String> {
     }
     if !winner.standing.feasible() {
         notes.push("no candidate was without bad runs and within the NEES limits".to_owned());
-    } else if winner.tally.nees().is_none() {
+    } else if winner.tally.nees6().is_none() {
         notes.push("no covariance, so the NEES limits do not apply".to_owned());
     }
     for (index, axis) in searched.contender.axes.iter().enumerate() {

@@ -99,7 +99,7 @@ impl Standing {
     pub fn new(tally: &Tally, objective: Objective, limits: &Limits) -> Self {
         Self {
             bad_runs: tally.bad_runs,
-            violation: tally.nees().map_or(0.0, |n| limits.violation(n)),
+            violation: tally.nees6().map_or(0.0, |n| limits.violation(n)),
             objective: tally.rmse(objective.quantity()).unwrap_or(f64::INFINITY),
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::error::FilterError;
 use crate::innovation::Innovation;
-use crate::laws::{Adaptation, Replacement, Step};
+use crate::laws::{Adaptation, Step};
 use crate::sample::Sample;
 use crate::state::{State, TargetMatrix};
 use nalgebra::Vector6;
@@ -48,8 +48,8 @@ pub(crate) trait Estimator {
     /// * returns: the innovation in SI; `None` when nothing was measured of the target.
     fn update(&mut self, sample: &Sample, step: &mut Step) -> Result<Option<Innovation>, FilterError>;
 
-    /// Puts relative position and velocity as a law has them in the place of the update's.
-    fn replace(&mut self, by: &Replacement);
+    /// Moves the mean of relative position and velocity, internal units; the covariance stays that of its own gain.
+    fn shift(&mut self, by: &Vector6<f64>);
 
     /// Number of the target's nine states that have a covariance; none under a constant gain.
     fn dimension(&self) -> usize;

@@ -10,7 +10,7 @@ use crate::dynamics::relative::RelativeMotion;
 use crate::error::FilterError;
 use crate::gravity::Gravity;
 use crate::innovation::Innovation;
-use crate::laws::{Adaptation, Motion, Replacement, Step};
+use crate::laws::{Adaptation, Motion, Step};
 use crate::layout::Layout;
 use crate::sample::Sample;
 use crate::state::{N_TARGET, Rows, State, Target, TargetMatrix, idx};
@@ -199,11 +199,10 @@ impl Estimator for LvlhState {
         Ok(Some(seen))
     }
 
-    fn replace(&mut self, by: &Replacement) {
+    fn shift(&mut self, by: &Vector6<f64>) {
         if let Some(core) = &mut self.core {
             let mut mean = core.x.fixed_rows_mut::<6>(0);
-            mean += by.shift;
-            core.p.fixed_view_mut::<6, 6>(0, 0).copy_from(&by.p);
+            mean += by;
         }
     }
 
@@ -225,12 +224,15 @@ impl Estimator for LvlhState {
     }
 
     fn report(&self, sample: &Sample, law: &dyn Adaptation) -> Reported {
-        let (mut x, p) = self
+        let (mut x, mut p) = self
             .core
             .as_ref()
             .map_or_else(|| (Target::zeros(), TargetMatrix::zeros()), |core| (core.x, core.p));
         if let Some(learnt) = law.disturbance() {
             x.fixed_rows_mut::<3>(idx::A_T.start).copy_from(&learnt.d);
+        }
+        if let Some(own) = law.replacement() {
+            p.fixed_view_mut::<6, 6>(0, 0).copy_from(&own.p);
         }
         // What Clohessy-Wiltshire leaves out is what the better model has beyond it.
         let beyond = self.motion.get().beyond(&sample.target_orbit, &x);

@@ -9,7 +9,7 @@ use crate::dynamics::{AccelerationModel, Drive, TwoVehicles, initial_covariance}
 use crate::error::FilterError;
 use crate::gravity::Gravity;
 use crate::innovation::Innovation;
-use crate::laws::{Adaptation, Replacement, Step};
+use crate::laws::{Adaptation, Step};
 use crate::layout::Layout;
 use crate::sample::Sample;
 use crate::state::{MAX_ROWS, N, RowVector, State, StateMatrix, TargetMatrix, idx};
@@ -19,7 +19,7 @@ use astro::relative_axes::{AxesN, Reference};
 use astro::{AstroError, Cr3bpSystem, frames};
 use interface::mission::InitialSigma;
 use interface::{Navigation, Sensor};
-use nalgebra::{Matrix3, Matrix6, SMatrix, SVector, Vector3, Vector6};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3, Vector6};
 use sensors::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -310,21 +310,6 @@ fn blur(p: &mut StateMatrix, blur: &Blur) {
     }
 }
 
-/// Gives relative position and velocity this covariance. With the Cholesky factors of it and of the old one, M = L_new L_old^-1
-/// turns the old into the new, and M applied to the covariances with all other states leaves what these say of each other as
-/// it was, so that the whole stays a covariance.
-fn replace_covariance(p: &mut StateMatrix, by: &Matrix6<f64>) {
-    let old = p.fixed_view::<6, 6>(0, 0).into_owned().cholesky();
-    if let (Some(old), Some(new)) = (old, by.cholesky()) {
-        let mut with_others = p.fixed_view::<6, 12>(0, 6).into_owned();
-        old.l_dirty().solve_lower_triangular_unchecked_mut(&mut with_others);
-        let with_others = new.l() * with_others;
-        p.fixed_view_mut::<6, 12>(0, 6).copy_from(&with_others);
-        p.fixed_view_mut::<12, 6>(6, 0).copy_from(&with_others.transpose());
-    }
-    p.fixed_view_mut::<6, 6>(0, 0).copy_from(by);
-}
-
 /// The update with the first M rows of a stack, and what a law shall see of it.
 fn update<const M: usize>(core: &mut Gaussian, stack: &Stack, step: &mut Step) -> Result<f64, NotSpd> {
     let m = Measurement::<M> {
@@ -462,11 +447,10 @@ impl Estimator for InertialState {
         }))
     }
 
-    fn replace(&mut self, by: &Replacement) {
+    fn shift(&mut self, by: &Vector6<f64>) {
         if let Some(core) = &mut self.core {
             let mut mean = core.x.fixed_rows_mut::<6>(0);
-            mean += by.shift;
-            replace_covariance(&mut core.p, &by.p);
+            mean += by;
         }
     }
 
@@ -492,10 +476,14 @@ impl Estimator for InertialState {
         if let Some(learnt) = law.disturbance() {
             x.fixed_rows_mut::<3>(idx::A_T.start).copy_from(&learnt.d);
         }
+        let mut p = core.p;
+        if let Some(own) = law.replacement() {
+            p.fixed_view_mut::<6, 6>(0, 0).copy_from(&own.p);
+        }
         Reported {
             x: x.component_mul(&unit),
-            p_target: TargetMatrix::from_fn(|i, j| core.p[(i, j)] * unit[i] * unit[j]),
-            sigma: State::from_fn(|i, _| core.p[(i, i)].sqrt() * unit[i]),
+            p_target: TargetMatrix::from_fn(|i, j| p[(i, j)] * unit[i] * unit[j]),
+            sigma: State::from_fn(|i, _| p[(i, i)].sqrt() * unit[i]),
         }
     }
 

@@ -99,10 +99,11 @@ impl Adaptation for ChangePoint {
     }
 
     fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
-        self.changes.take(&self.centre.shared(step));
+        let shared = self.centre.shared(step);
+        self.changes.take(&shared);
         let mixture = self.changes.moments();
-        self.changes.shift(&mixture.shift);
-        self.centre.say(mixture, self.changes.density());
+        self.changes.shift(&mixture.mean);
+        self.centre.say(&shared, mixture, self.changes.density());
         Ok(())
     }
 

@@ -110,7 +110,7 @@ impl Adaptation for Hybrid {
         let (of_white, of_walking) = weights[1..].split_at(self.white.members.len());
         let mut mixture = Mixture::default();
         let changes = self.changes.moments();
-        mixture.add(weights[0], &changes.shift, &changes.p);
+        mixture.add(weights[0], &changes.mean, &changes.p);
         self.white.add_to(&mut mixture, of_white);
         for (Walking { member, .. }, weight) in self.walking.iter().zip(of_walking) {
             let dx = member.dx.fixed_rows::<6>(0).into_owned();
@@ -118,13 +118,13 @@ impl Adaptation for Hybrid {
         }
         let mixture = mixture.moments();
         let density = weights[0] * self.changes.density() + self.white.density(of_white);
-        self.changes.shift(&mixture.shift);
-        self.white.shift(&mixture.shift);
+        self.changes.shift(&mixture.mean);
+        self.white.shift(&mixture.mean);
         for Walking { member, .. } in &mut self.walking {
             let mut deviation = member.dx.fixed_rows_mut::<6>(0);
-            deviation -= mixture.shift;
+            deviation -= mixture.mean;
         }
-        self.centre.say(mixture, density);
+        self.centre.say(&shared, mixture, density);
         Ok(())
     }
 

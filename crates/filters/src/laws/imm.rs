@@ -3,7 +3,7 @@
 use super::adaptation::{Adaptation, Setup, Step};
 use super::bank::{Centre, Mixture, Replacement};
 use super::entry::{FilterEntry, Motion, Search, Update};
-use super::mmae::{DECADES, Decades};
+use super::mmae::{Decades, LOWEST, MEMBERS};
 use crate::dynamics::AccelerationModel;
 use crate::error::FilterError;
 use crate::jerk;
@@ -13,10 +13,10 @@ use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "imm",
-    about: "interacting multiple models over six snc filters, a decade of q apart",
+    about: "interacting multiple models over snc filters a decade of q apart (Blom and Bar-Shalom)",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    tunables: &[SOJOURN],
+    tunables: &[LOWEST, MEMBERS, SOJOURN],
     presets: &[Preset {
         name: "paper",
         about: "the constants of docs/laws.md, the same in every mission",
@@ -34,7 +34,7 @@ const SOJOURN: Tunable = Tunable {
     name: "sojourn",
     about: "mean time that the target keeps to one of the models",
     kind: Kind::Real {
-        start: Start::Fixed(300.0),
+        start: Start::Fixed(10_000.0),
         unit: "s",
         bound: Bound::Positive,
     },
@@ -53,10 +53,12 @@ impl Imm {
     /// # Errors
     /// When a tunable is out of range.
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        let decades = Decades::as_tuned(setup)?;
+        let count = decades.members.len();
         Ok(Self {
             centre: Centre::new(setup.r),
-            decades: Decades::new(&DECADES, setup),
-            weights: vec![1.0 / DECADES.len() as f64; DECADES.len()],
+            decades,
+            weights: vec![1.0 / count as f64; count],
             sojourn: setup.tunables.real(SOJOURN.name)? / setup.units.time,
         })
     }
@@ -65,6 +67,9 @@ impl Imm {
     /// it goes to any of the others alike.
     fn mix(&mut self, dt: f64) {
         let count = self.weights.len();
+        if count == 1 {
+            return;
+        }
         let leave = -(-dt / self.sojourn).exp_m1() / (count - 1) as f64;
         let from = |i: usize, j: usize| {
             let stay = if i == j { 1.0 - leave * count as f64 } else { 0.0 };
@@ -78,7 +83,7 @@ impl Imm {
             mixed.push((into.iter().sum::<f64>(), mixture.moments()));
         }
         for ((member, weight), (sum, mixture)) in self.decades.members.iter_mut().zip(&mut self.weights).zip(mixed) {
-            (member.dx, member.p, *weight) = (mixture.shift, mixture.p, sum);
+            (member.dx, member.p, *weight) = (mixture.mean, mixture.p, sum);
         }
     }
 }
@@ -108,8 +113,8 @@ impl Adaptation for Imm {
         let mut mixture = Mixture::default();
         self.decades.add_to(&mut mixture, &self.weights);
         let mixture = mixture.moments();
-        self.decades.shift(&mixture.shift);
-        self.centre.say(mixture, self.decades.density(&self.weights));
+        self.decades.shift(&mixture.mean);
+        self.centre.say(&shared, mixture, self.decades.density(&self.weights));
         Ok(())
     }
 

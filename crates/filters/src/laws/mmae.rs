@@ -11,15 +11,12 @@ use crate::tunable::{Bound, Kind, Preset, Start, Tunable};
 use nalgebra::{Matrix6, Vector6};
 use serde::{Deserialize, Serialize};
 
-/// Members: one for each decade of the root density, m/s^1.5.
-pub(super) const DECADES: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
-
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "mmae",
-    about: "multiple-model adaptive estimation over six snc filters, a decade of q apart",
+    about: "multiple-model adaptive estimation over snc filters a decade of q apart (Magill)",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    tunables: &[MEMORY],
+    tunables: &[LOWEST, MEMBERS, MEMORY],
     presets: &[Preset {
         name: "paper",
         about: "the constants of docs/laws.md, the same in every mission",
@@ -27,6 +24,28 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         sets: &[],
     }],
     search: &[],
+};
+
+/// Tunable `lowest`.
+pub(super) const LOWEST: Tunable = Tunable {
+    name: "lowest",
+    about: "square root of the acceleration density of the quietest member; each other is a decade above the one before",
+    kind: Kind::Real {
+        start: Start::Fixed(1e-6),
+        unit: "m/s^1.5",
+        bound: Bound::Positive,
+    },
+};
+
+/// Tunable `members`.
+pub(super) const MEMBERS: Tunable = Tunable {
+    name: "members",
+    about: "number of members",
+    kind: Kind::Integer {
+        start: 6,
+        min: 1,
+        max: 12,
+    },
 };
 
 /// Tunable `memory`.
@@ -50,6 +69,17 @@ pub(super) struct Decades {
 }
 
 impl Decades {
+    /// The members that [`LOWEST`] and [`MEMBERS`] say.
+    ///
+    /// # Errors
+    /// When a tunable is out of range.
+    pub(super) fn as_tuned(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        let lowest = setup.tunables.real(LOWEST.name)?;
+        let members = setup.tunables.integer(MEMBERS.name)?;
+        let roots: Vec<f64> = (0..members).map(|k| lowest * 10_f64.powi(k)).collect();
+        Ok(Self::new(&roots, setup))
+    }
+
     /// * `roots`: square roots of the densities, m/s^1.5.
     pub(super) fn new(roots: &[f64], setup: &Setup<'_>) -> Self {
         let unit = setup.units.velocity() / setup.units.time.sqrt();
@@ -100,13 +130,12 @@ impl Mmae {
     /// # Errors
     /// When a tunable is out of range.
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        let decades = Decades::as_tuned(setup)?;
+        let alike = vec![1.0; decades.members.len()];
         Ok(Self {
             centre: Centre::new(setup.r),
-            decades: Decades::new(&DECADES, setup),
-            weights: Weights::new(
-                &[1.0; DECADES.len()],
-                setup.tunables.real(MEMORY.name)? / setup.units.time,
-            ),
+            decades,
+            weights: Weights::new(&alike, setup.tunables.real(MEMORY.name)? / setup.units.time),
         })
     }
 }
@@ -122,15 +151,15 @@ impl Adaptation for Mmae {
 
     fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
         let shared = self.centre.shared(step);
-        let mut likelihoods = Vec::with_capacity(DECADES.len());
+        let mut likelihoods = Vec::with_capacity(self.decades.members.len());
         self.decades.take(&shared, &mut likelihoods);
         self.weights.update(shared.dt, &likelihoods);
         let weights = self.weights.get();
         let mut mixture = Mixture::default();
         self.decades.add_to(&mut mixture, weights);
         let mixture = mixture.moments();
-        self.decades.shift(&mixture.shift);
-        self.centre.say(mixture, self.decades.density(weights));
+        self.decades.shift(&mixture.mean);
+        self.centre.say(&shared, mixture, self.decades.density(weights));
         Ok(())
     }
 

@@ -6,6 +6,7 @@ mod axis;
 mod canvas;
 mod compared;
 mod over_time;
+mod regret;
 mod sheet;
 
 use std::fs;
@@ -54,9 +55,9 @@ const FONTS: [[&str; 2]; 6] = [
     ["C:\\Windows\\Fonts\\arial.ttf", "C:\\Windows\\Fonts\\arialbd.ttf"],
 ];
 
-/// Every figure of every study of a folder, or of a folder of `reproduce`.
+/// Every figure of every study of a folder, or of a folder of `reproduce` or `regret`.
 ///
-/// * returns: names and contents, `figures/SCENARIO_CASE_WHAT.svg` or `.png`.
+/// * returns: names and contents, `figures/SCENARIO_CASE_WHAT.svg` or `.png`; of `regret`, `figures/MISSION_regret.svg` or `.png`.
 ///
 /// # Errors
 /// [`ReportError`]: those of [`crate::html`], and [`ReportError::NoFont`], [`ReportError::Drawing`].
@@ -82,6 +83,9 @@ fn sheets(folder: &Path) -> Result<Vec<(String, Sheet)>, ReportError> {
         let learning = reproduced::learning(folder)?;
         let sheet = learning.map(|l| ("learning_curve".to_owned(), over_time::learning(&l)));
         return Ok(sheet.into_iter().collect());
+    }
+    if folder.join(regret::TABLE).is_file() {
+        return regret::sheets(folder);
     }
     let folder = Folder::read(folder)?;
     let mut sheets = Vec::new();

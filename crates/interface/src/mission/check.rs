@@ -38,6 +38,7 @@ pub(super) fn findings(mission: &Mission) -> Vec<Finding> {
     c.vehicles(mission);
     c.burns(mission);
     c.vents(mission);
+    c.unmodelled(mission);
     c.sensors(mission);
     c.navigation(mission);
     c.study(mission);
@@ -436,6 +437,21 @@ impl Check {
             if burn.told && burn.axes == Axes::Body && burn.vehicle == Which::Target {
                 self.say(path("axes"), format!("burn {name:?}: the filter does not know the target's attitude, so axes of a told burn must be n, inertial or rtn"));
             }
+        }
+    }
+
+    fn unmodelled(&mut self, mission: &Mission) {
+        let unmodelled = &mission.unmodelled;
+        for (key, value, bound) in [
+            ("wander_sigma_m_s2", unmodelled.wander_sigma_m_s2, Bound::NonNegative),
+            (
+                "wander_time_constant_s",
+                unmodelled.wander_time_constant_s,
+                Bound::Positive,
+            ),
+            ("white_m_s1_5", unmodelled.white_m_s1_5, Bound::NonNegative),
+        ] {
+            self.hold(format!("unmodelled.{key}"), value, bound);
         }
     }
 

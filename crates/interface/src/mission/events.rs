@@ -66,6 +66,29 @@ impl Burn {
     }
 }
 
+/// Accelerations of the target that never stop and that no filter is told of; random streams of their own, axes N, constant over
+/// each grid interval.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Unmodelled {
+    /// Steady standard deviation, per axis, of a first-order Gauss-Markov acceleration, m/s2; 0: none.
+    pub wander_sigma_m_s2: f64,
+    /// Its time constant, s.
+    pub wander_time_constant_s: f64,
+    /// Square root of the density of a white acceleration, per axis, m/s^1.5; 0: none.
+    pub white_m_s1_5: f64,
+}
+
+impl Default for Unmodelled {
+    fn default() -> Self {
+        Self {
+            wander_sigma_m_s2: 0.0,
+            wander_time_constant_s: 300.0,
+            white_m_s1_5: 0.0,
+        }
+    }
+}
+
 /// A kind of vent of the target.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

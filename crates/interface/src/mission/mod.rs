@@ -31,7 +31,7 @@ pub use environment::{
     Atmosphere, Body, Cr3bp, Drag, Environment, Gravity, Harmonics, Radiation, Rotation, Shadow, TwoBody, Zonal,
 };
 pub use error::{MissionError, Problem};
-pub use events::{Axes, Burn, Distribution, First, FirstTable, Magnitude, Profile, Vent, Which};
+pub use events::{Axes, Burn, Distribution, First, FirstTable, Magnitude, Profile, Unmodelled, Vent, Which};
 pub use navigation::{
     Frame, InitialSigma, KnownAccelerometer, KnownSensor, Navigation, NavigationSection, P0, Scale, Told, Units,
     UnitsChoice,
@@ -74,6 +74,9 @@ pub struct Mission {
     /// Vents of the target, `[[vent]]`, one entry for each kind.
     #[serde(default, rename = "vent")]
     pub vents: Vec<Vent>,
+    /// What pushes the target without ever stopping, and no filter is told of.
+    #[serde(default)]
+    pub unmodelled: Unmodelled,
     /// Sensors of the chaser; at least one that sees the target.
     #[serde(default)]
     pub sensors: Sensors,

@@ -42,8 +42,9 @@ pub enum ResultAxes {
     Lvlh,
 }
 
-/// A named part of the run: the epochs at which every condition given holds. `scored` (the scored time) and, with vents, `vents`
-/// and `quiet` are always there.
+/// A named part of the run: the epochs at which every condition given holds. `scored` (the scored time) is always there and, where
+/// something unannounced may push the target, `vents` and `quiet`, while it does and does not, and `after_push` and `calm`, until a
+/// minute after it has and later.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Phase {
@@ -61,17 +62,23 @@ pub struct Phase {
     /// Largest true distance between the vehicles, m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range_to_m: Option<f64>,
-    /// Whether an acceleration of the target that no filter is told of acts: by vents, or by its burns.
+    /// Whether something that no filter is told of pushes the target: a vent, a burn, an input.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vents: Option<bool>,
     /// Only this long after the end of a burn of either vehicle, s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub after_burn_s: Option<f64>,
+    /// Only while something that no filter is told of pushes the target, and this long after, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pushed_within_s: Option<f64>,
+    /// Only where nothing of the kind has pushed the target for longer than this, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub calm_for_s: Option<f64>,
 }
 
 impl Phase {
     /// Names that are always there.
-    pub const OWN: [&'static str; 3] = ["scored", "vents", "quiet"];
+    pub const OWN: [&'static str; 5] = ["scored", "vents", "quiet", "after_push", "calm"];
 
     /// Checks what no type does.
     ///
@@ -86,17 +93,27 @@ impl Phase {
             range_to_m,
             vents,
             after_burn_s,
+            pushed_within_s,
+            calm_for_s,
         } = self;
         if Self::OWN.contains(&name.as_str()) {
             return Err(format!("'{name}' is always there; give another name"));
         }
-        let numbers = [from_s, to_s, range_from_m, range_to_m, after_burn_s];
+        let numbers = [
+            from_s,
+            to_s,
+            range_from_m,
+            range_to_m,
+            after_burn_s,
+            pushed_within_s,
+            calm_for_s,
+        ];
         if let Some(bad) = numbers.into_iter().flatten().find(|x| !(x.is_finite() && **x >= 0.0)) {
             return Err(format!("'{name}' has a {bad}: give finite numbers, 0 or more"));
         }
         if numbers.iter().all(|x| x.is_none()) && vents.is_none() {
             return Err(format!(
-                "'{name}' has no condition: give from_s, to_s, range_from_m, range_to_m, vents or after_burn_s"
+                "'{name}' has no condition: give from_s, to_s, range_from_m, range_to_m, vents, after_burn_s, pushed_within_s or calm_for_s"
             ));
         }
         for (low, high, unit, names) in [

@@ -24,5 +24,6 @@ pub(super) fn event(burn: &Burn) -> Event {
             Axes::Rtn => Vector::Rtn(acceleration),
         },
         back_propagated: burn.is_back_propagated(),
+        told: burn.told,
     }
 }

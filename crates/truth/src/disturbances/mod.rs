@@ -2,6 +2,7 @@
 
 mod burns;
 pub mod profiles;
+pub(crate) mod unmodelled;
 mod vents;
 
 use numerics::Generator;
@@ -22,6 +23,7 @@ pub(crate) fn schedule(run: &Run) -> Timeline {
             side: Side::Target,
             acceleration: Vector::N(run.target_burn.a_t_n),
             back_propagated: false,
+            told: false,
         });
     }
     Timeline::new(events)

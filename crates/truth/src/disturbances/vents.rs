@@ -22,15 +22,17 @@ pub(super) fn draw(run: &Run) -> Vec<Event> {
         let mut directions = entry_stream(run, Source::VentDirection, &vent.name);
         let axis = Vector3::from(vent.direction_body).normalize();
         for i in 0..vent.count {
-            let magnitude = magnitude(&vent.magnitude_m_s2, &mut sizes) * run.vent_scale;
+            let start = first + f64::from(i) * vent.period_s.unwrap_or(0.0);
+            let magnitude = magnitude(&vent.magnitude_m_s2, &mut sizes) * run.vent_scale.at(start);
             let along = spread(&axis, vent.direction_sigma_deg.to_radians(), &mut directions);
             events.push(Event {
-                start: first + f64::from(i) * vent.period_s.unwrap_or(0.0),
+                start,
                 duration: vent.duration_s,
                 profile: profiles::Profile::of(vent.profile),
                 side: Side::Target,
                 acceleration: Vector::Body(along * magnitude),
                 back_propagated: true,
+                told: false,
             });
         }
     }

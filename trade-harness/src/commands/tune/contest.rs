@@ -146,7 +146,7 @@ impl Contest {
                 values,
                 conditions: conditions.to_vec(),
                 search_objective: Some(best.standing.objective).filter(|o| o.is_finite()),
-                search_nees: best.tally.nees(),
+                search_nees: best.tally.nees6(),
                 feasible: best.standing.feasible(),
             })
         };

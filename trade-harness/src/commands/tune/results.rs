@@ -127,7 +127,7 @@ impl Done {
 
 fn heading(world: &World, args: &TuneArgs) -> String {
     format!(
-        "least RMSE of {} with NEES from {} to {}, {} evaluations of {} runs from seed {}; judged by {} runs from seed {}, {} to {} s",
+        "least RMSE of {} with NEES of position and velocity from {} to {}, {} evaluations of {} runs from seed {}; judged by {} runs from seed {}, {} to {} s",
         args.objective.name(),
         args.nees_min,
         args.nees_max,
@@ -160,7 +160,7 @@ fn entry<'a>(searched: &'a Searched, world: &World, report: &'a Report<'_>, opti
     let label = winner.map_or_else(|| given.clone(), |_| searched.contender.tuned().label);
     let best = row(&label)?;
     let mut notes = notes(searched, options);
-    if !options.limits.hold(best.nees.mean) {
+    if !options.limits.hold(best.nees6.mean) {
         notes.push("judged, its NEES is outside the limits".to_owned());
     }
     let found = winner.map(|w| settings(searched.settings(w)));

@@ -1,22 +1,22 @@
 //! The estimator's own mean and covariance, as the members see them.
 
 use super::member::Member;
-use super::mixture::Replacement;
+use super::mixture::{Moments, Replacement};
 use super::rows::Seen;
 use crate::jerk;
 use crate::laws::Step;
-use crate::state::RowVector;
+use crate::state::{RowVector, TargetMatrix};
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use serde::{Deserialize, Serialize};
 
-/// What the law said last, from which follows what of the centre's covariance is not of the law's making.
+/// The centre between two samples.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(in crate::laws) struct Centre {
     /// Noise variances of the rows, internal units.
     r: RowVector,
-    /// What stands in place of the estimator's own; `None` before the first sample.
-    said: Option<Replacement>,
-    /// White acceleration density of the mixture.
+    /// The estimator's own covariance after the last sample, 6x6, and what was said in its place; `None` before the first sample.
+    last: Option<(Matrix6<f64>, Replacement)>,
+    /// White acceleration density with which the estimator walks: that of the mixture.
     density: f64,
 }
 
@@ -34,24 +34,31 @@ pub(in crate::laws) struct Shared {
     correction: Vector6<f64>,
     /// Covariance of the centre before the update where there is no earlier step.
     first: Option<Matrix6<f64>>,
+    /// The estimator's own after the update.
+    post: Matrix6<f64>,
+    /// What the mixture makes of the sample: normalised innovation squared, and variances of the rows.
+    predicted: (f64, RowVector),
 }
 
 impl Centre {
     /// * `r`: noise variances of the rows in the places of the layout, internal units.
     pub(in crate::laws) fn new(r: RowVector) -> Self {
-        Self {
-            r,
-            ..Self::default()
-        }
+        Self { r, ..Self::default() }
     }
 
     /// What the members need of a step.
     pub(in crate::laws) fn shared(&self, step: &Step) -> Shared {
-        let f = step.f.fixed_view::<6, 6>(0, 0).into_owned();
-        let prior = step.p_prior.fixed_view::<6, 6>(0, 0).into_owned();
-        let common = self.said.as_ref().map_or_else(Matrix6::zeros, |said| {
-            prior - f * said.p * f.transpose() - white(self.density, step.dt)
-        });
+        let six = |m: &TargetMatrix| m.fixed_view::<6, 6>(0, 0).into_owned();
+        let (f, prior) = (six(&step.f), six(&step.p_prior));
+        let walk = white(self.density, step.dt);
+        let carried = |p: &Matrix6<f64>| f * p * f.transpose();
+        let (common, mixture_prior) = match &self.last {
+            None => (Matrix6::zeros(), prior),
+            Some((before, said)) => {
+                let common = as_covariance(prior - carried(before) - walk);
+                (common, carried(&said.p) + common + walk)
+            }
+        };
         let seen = Seen::new(step, &self.r);
         let mut centre = Member::<6> {
             dx: Vector6::zeros(),
@@ -64,19 +71,27 @@ impl Centre {
             common,
             seen,
             correction: centre.dx,
-            first: self.said.is_none().then_some(prior),
+            first: self.last.is_none().then_some(prior),
+            post: six(&step.p_post),
+            predicted: predicted(mixture_prior, &seen),
         }
     }
 
     /// The mixture stands from now on, and walks with this white acceleration density.
-    pub(in crate::laws) fn say(&mut self, mixture: Replacement, density: f64) {
-        self.said = Some(mixture);
+    pub(in crate::laws) fn say(&mut self, shared: &Shared, Moments { mean, p }: Moments, density: f64) {
+        let said = Replacement {
+            shift: mean,
+            p,
+            nis: shared.predicted.0,
+            variance: shared.predicted.1,
+        };
+        self.last = Some((shared.post, said));
         self.density = density;
     }
 
     /// What stands in place of the estimator's own.
     pub(in crate::laws) fn said(&self) -> Option<&Replacement> {
-        self.said.as_ref()
+        self.last.as_ref().map(|(_, said)| said)
     }
 
     /// White acceleration density of the mixture.
@@ -85,7 +100,49 @@ impl Centre {
     }
 }
 
+/// Normalised innovation squared of a sample, and variances of its rows, under a covariance before it.
+fn predicted(prior: Matrix6<f64>, seen: &Seen) -> (f64, RowVector) {
+    let mut member = Member::<6> {
+        dx: Vector6::zeros(),
+        p: prior,
+    };
+    let (mut nis, mut variance) = (0.0, RowVector::zeros());
+    for row in seen.iter() {
+        variance[row.place] = (row.h * prior * row.h.transpose())[0] + row.r;
+        let taken = member.take(row);
+        nis += taken.innovation * taken.innovation / taken.s;
+    }
+    (nis, variance)
+}
+
+/// What was found as a difference of covariances, made one that can be added to any: where rounding, or news of the
+/// accelerometer's bias on the way, has left it none, its diagonal as far as that is positive.
+fn as_covariance(found: Matrix6<f64>) -> Matrix6<f64> {
+    let fits = |i: usize, j: usize| found[(i, j)].powi(2) <= found[(i, i)] * found[(j, j)];
+    let is_one = (0..6).all(|i| found[(i, i)] >= 0.0 && (0..i).all(|j| fits(i, j)));
+    if is_one {
+        found
+    } else {
+        Matrix6::from_diagonal(&found.diagonal().map(|v| v.max(0.0)))
+    }
+}
+
 impl Shared {
+    /// A step in which the centre stays where it is.
+    #[cfg(test)]
+    pub(super) fn of(dt: f64, f: Matrix6<f64>, seen: Seen) -> Self {
+        Self {
+            dt,
+            f,
+            common: Matrix6::zeros(),
+            seen,
+            correction: Vector6::zeros(),
+            first: None,
+            post: Matrix6::zeros(),
+            predicted: (0.0, RowVector::zeros()),
+        }
+    }
+
     /// A member through the step; its deviation is then from the centre's mean after the update.
     ///
     /// * `f`: transition of its states, D x D; `noise`: its own process noise, D x D.
@@ -147,5 +204,7 @@ impl Shared {
 
 /// Process noise of white acceleration over `dt` in position and velocity, 6x6.
 pub(in crate::laws) fn white(density: f64, dt: f64) -> Matrix6<f64> {
-    jerk::white_acceleration(density, dt).fixed_view::<6, 6>(0, 0).into_owned()
+    jerk::white_acceleration(density, dt)
+        .fixed_view::<6, 6>(0, 0)
+        .into_owned()
 }

@@ -68,3 +68,54 @@ impl<const D: usize> Taken<D> {
         -0.5 * (self.innovation * self.innovation / self.s + self.s.ln())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::update::kalman::{self, Gaussian, Measurement};
+    use nalgebra::{RowVector6, SMatrix, Vector3};
+    use numerics::{Generator, Source, stream};
+    use rand_distr::{Distribution, StandardNormal};
+
+    fn normal(g: &mut Generator) -> f64 {
+        StandardNormal.sample(g)
+    }
+
+    /// Row by row against all rows at once, for a member with an acceleration of which nothing is measured.
+    #[test]
+    fn rows_one_after_the_other_are_the_update_of_all_at_once() {
+        let g = &mut stream(3, 0, Source::Lidar);
+        let root = SMatrix::<f64, 9, 9>::from_fn(|_, _| normal(g));
+        let mut dense = Gaussian::<9> {
+            x: SVector::from_fn(|_, _| normal(g)),
+            p: root * root.transpose() + SMatrix::identity(),
+        };
+        let mut member = Member {
+            dx: dense.x,
+            p: dense.p,
+        };
+        let rows: [Row; 3] = std::array::from_fn(|place| Row {
+            place,
+            h: RowVector6::from_fn(|_, _| normal(g)),
+            innovation: normal(g),
+            r: 0.1 + normal(g).abs(),
+        });
+        let mut h = SMatrix::<f64, 3, 9>::zeros();
+        for (i, row) in rows.iter().enumerate() {
+            h.fixed_view_mut::<1, 6>(i, 0).copy_from(&row.h);
+        }
+        let innovation = Vector3::from_fn(|i, _| rows[i].innovation) - h * dense.x;
+        let measurement = Measurement {
+            h,
+            innovation,
+            r: Vector3::from_fn(|i, _| rows[i].r),
+        };
+        let (_, expected) = kalman::update(&mut dense, &measurement, 0..0)
+            .unwrap()
+            .of_leading(&innovation, 3);
+        let log_likelihood = member.update(&Seen::of(&rows)) - 1.5 * (2.0 * std::f64::consts::PI).ln();
+        assert!((member.dx - dense.x).amax() < 1e-12);
+        assert!((member.p - dense.p).amax() < 1e-12);
+        assert!((log_likelihood - expected).abs() < 1e-12);
+    }
+}

@@ -1,5 +1,7 @@
 //! Mean and covariance of a mixture.
 
+use crate::error::FilterError;
+use crate::state::RowVector;
 use nalgebra::{Matrix6, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -9,6 +11,30 @@ pub struct Replacement {
     /// To be added to the mean, 6.
     pub shift: Vector6<f64>,
     /// The covariance, 6x6.
+    pub p: Matrix6<f64>,
+    /// Normalised innovation squared of the sample under the covariance before it.
+    pub nis: f64,
+    /// Variances of its rows then, in the places of the layout; zero where nothing was measured.
+    pub variance: RowVector,
+}
+
+impl Replacement {
+    /// The first thing wrong with it.
+    pub(crate) fn defect(&self, t_s: f64) -> Option<FilterError> {
+        if !self.p.iter().all(|v| v.is_finite()) {
+            return Some(FilterError::NotFinite { t_s });
+        }
+        let negative = self.p.diagonal().iter().position(|v| *v < 0.0);
+        negative.map(|i| FilterError::NegativeVariance { t_s, state: i + 1 })
+    }
+}
+
+/// Mean and covariance of a mixture; internal units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::laws) struct Moments {
+    /// 6.
+    pub mean: Vector6<f64>,
+    /// 6x6.
     pub p: Matrix6<f64>,
 }
 
@@ -35,13 +61,33 @@ impl Mixture {
     }
 
     /// Mean and covariance of all of it.
-    pub(in crate::laws) fn moments(&self) -> Replacement {
-        let shift = self.first / self.weight;
+    pub(in crate::laws) fn moments(&self) -> Moments {
+        let mean = self.first / self.weight;
         let mut p = self.second / self.weight;
-        p.ger(-1.0, &shift, &shift, 1.0);
-        Replacement {
-            shift,
+        p.ger(-1.0, &mean, &mean, 1.0);
+        Moments {
+            mean,
             p: (p + p.transpose()) * 0.5,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two parts, by the formula for two; weights that do not sum to one, and the second part by its second moment.
+    #[test]
+    fn two_parts() {
+        let means = [Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0), Vector6::repeat(-0.5)];
+        let covariances = [Matrix6::identity() * 2.0, Matrix6::identity() * 0.3];
+        let mut mixture = Mixture::default();
+        mixture.add(3.0, &means[0], &covariances[0]);
+        mixture.add_second(1.0, &means[1], &(covariances[1] + means[1] * means[1].transpose()));
+        let Moments { mean, p } = mixture.moments();
+        let apart = means[0] - means[1];
+        let expected = covariances[0] * 0.75 + covariances[1] * 0.25 + apart * apart.transpose() * (0.75 * 0.25);
+        assert!((mean - means[0] * 0.75 - means[1] * 0.25).amax() < 1e-14);
+        assert!((p - expected).amax() < 1e-13);
     }
 }

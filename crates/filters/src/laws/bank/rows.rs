@@ -7,6 +7,8 @@ use nalgebra::RowVector6;
 /// One measured row, internal units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::laws) struct Row {
+    /// Its place in the layout.
+    pub place: usize,
     /// Partials by relative position and velocity.
     pub h: RowVector6<f64>,
     /// Measured minus predicted at the centre.
@@ -27,6 +29,7 @@ impl Seen {
     /// * `r`: noise variances in the places of the layout, internal units.
     pub(in crate::laws) fn new(step: &Step, r: &RowVector) -> Self {
         let nothing = Row {
+            place: 0,
             h: RowVector6::zeros(),
             innovation: 0.0,
             r: 1.0,
@@ -37,12 +40,25 @@ impl Seen {
         };
         for place in (0..MAX_ROWS).filter(|place| step.measured.has(*place)) {
             seen.rows[seen.count] = Row {
+                place,
                 h: step.h.fixed_view::<1, 6>(place, 0).into_owned(),
                 innovation: step.innovation[place],
                 r: r[place],
             };
             seen.count += 1;
         }
+        seen
+    }
+
+    /// These rows.
+    #[cfg(test)]
+    pub(super) fn of(rows: &[Row]) -> Self {
+        let mut seen = Self::new(
+            &Step::blank(1.0, crate::state::TargetMatrix::zeros()),
+            &RowVector::zeros(),
+        );
+        seen.rows[..rows.len()].copy_from_slice(rows);
+        seen.count = rows.len();
         seen
     }
 

@@ -13,7 +13,7 @@
 
 use super::centre::{Shared, white};
 use super::member::Member;
-use super::mixture::{Mixture, Replacement};
+use super::mixture::{Mixture, Moments};
 use crate::units::Units;
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
@@ -170,7 +170,7 @@ impl VelocityChanges {
     }
 
     /// Mean and covariance of the mixture.
-    pub(in crate::laws) fn moments(&self) -> Replacement {
+    pub(in crate::laws) fn moments(&self) -> Moments {
         let mut mixture = Mixture::default();
         mixture.add(self.weighed.quiet, &self.quiet.dx, &self.quiet.p);
         for (hypothesis, part) in self.open.iter().zip(&self.weighed.parts) {
@@ -235,10 +235,10 @@ impl VelocityChanges {
 
     /// The mixture takes the place of the quiet filter.
     fn decide(&mut self) {
-        let Replacement { shift, p } = self.moments();
+        let Moments { mean, p } = self.moments();
         let counts: Vec<[f64; 5]> = self.weighed.parts.iter().map(|part| part.weights).collect();
         counts.iter().for_each(|weights| self.count(weights));
-        self.quiet = Member { dx: shift, p };
+        self.quiet = Member { dx: mean, p };
         self.open.clear();
         self.weighed = Weighed {
             quiet: 1.0,
@@ -325,4 +325,94 @@ impl Hypothesis {
 fn spacing(age: f64) -> f64 {
     let reached = THINNED.iter().take_while(|(from, _)| age >= *from);
     reached.last().map_or(THINNED[0].1, |(_, spacing)| *spacing)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::rows::{Row, Seen};
+    use super::*;
+    use interface::mission::Units as Told;
+    use nalgebra::RowVector6;
+    use numerics::{Generator, Source, stream};
+    use rand_distr::{Distribution, StandardNormal};
+
+    fn changes() -> VelocityChanges {
+        let told = interface::mission::embedded("leo_venting").unwrap().mission().unwrap();
+        let units: Told = told.navigation().units;
+        let mut changes = VelocityChanges::new(&Parameters { quiet: 1e-3, rate: 1.0 }, &Units::of(&units));
+        for i in 0..6 {
+            changes.quiet.p[(i, i)] = if i < 3 { 1.0 } else { 1e-4 };
+        }
+        changes
+    }
+
+    fn step(g: &mut Generator) -> Shared {
+        let mut f = Matrix6::identity();
+        f.fixed_view_mut::<3, 3>(0, 3).fill_diagonal(1.0);
+        let rows: [Row; 3] = std::array::from_fn(|i| {
+            let mut h = RowVector6::zeros();
+            h[i] = 1.0;
+            h[(i + 1) % 3] = 0.2;
+            let normal: f64 = StandardNormal.sample(g);
+            // As small as its noise, so that nothing is decided.
+            Row {
+                place: i,
+                h,
+                innovation: 0.2 * normal,
+                r: 0.04,
+            }
+        });
+        Shared::of(1.0, f, Seen::of(&rows))
+    }
+
+    /// A hypothesis against a filter that is really run with it: at t_j its velocity becomes unsure by c, and from there on mean,
+    /// covariance and likelihood of every sample are its own.
+    #[test]
+    fn a_hypothesis_is_the_filter_that_was_never_run() {
+        let g = &mut stream(5, 0, Source::Lidar);
+        let mut changes = changes();
+        changes.take(&step(g));
+        // The first sample opens a hypothesis.
+        assert_eq!(changes.open.len(), 1);
+        let size = changes.sizes[2];
+        let mut run = changes.quiet.clone();
+        (3..6).for_each(|i| run.p[(i, i)] += size * size);
+        let (mut quiet, mut of_quiet, mut of_run) = (changes.quiet.clone(), 0.0, 0.0);
+        for _ in 0..25 {
+            let shared = step(g);
+            let noise = white(changes.density, 1.0);
+            of_quiet += shared.take(&mut quiet, &shared.f, &noise, 0.0);
+            of_run += shared.take(&mut run, &shared.f, &noise, 0.0);
+            changes.take(&shared);
+            assert_eq!(changes.decisions(), 0);
+        }
+        assert!((changes.quiet.dx - quiet.dx).amax() < 1e-12);
+        let hypothesis = &changes.open[0];
+        let (log_ratio, mean, v) = hypothesis.given(size);
+        let off = hypothesis.e * mean;
+        let covariance = quiet.p + hypothesis.e * v * hypothesis.e.transpose();
+        assert!(off.amax() > 1e-4, "there is something to compare");
+        assert!((quiet.dx + off - run.dx).amax() < 1e-10);
+        assert!((covariance - run.p).amax() < 1e-10);
+        assert!((log_ratio - (of_run - of_quiet)).abs() < 1e-9);
+    }
+
+    /// After an hour of samples without news there are no more hypotheses than the spacings allow, and they stand as these say.
+    #[test]
+    fn hypotheses_are_thinned_with_age() {
+        let g = &mut stream(6, 0, Source::Lidar);
+        let mut changes = changes();
+        for _ in 0..3600 {
+            changes.take(&step(g));
+        }
+        assert_eq!(changes.decisions(), 0);
+        let ages: Vec<f64> = changes.open.iter().map(|h| h.age).collect();
+        assert!(ages.len() <= 20, "{ages:?}");
+        for pair in ages.windows(2) {
+            let apart = pair[0] - pair[1];
+            let allowed = spacing(pair[1]);
+            assert!(apart >= allowed - 1e-9 && apart <= 2.0 * spacing(pair[0]), "{ages:?}");
+        }
+        assert!(ages[0] <= OLDEST && ages[0] > OLDEST - 45.0, "{ages:?}");
+    }
 }
