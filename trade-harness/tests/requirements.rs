@@ -71,10 +71,10 @@ fn a_phase_is_scored_by_its_own_epochs() {
     let (_, result) = study(with_end(&[("good", Quirk::None)]));
     let phases = PhaseSummary::of("mock", "nominal", &result.filters[0]);
     let names: Vec<&str> = phases.iter().map(|p| p.phase.as_str()).collect();
-    assert_eq!(names, ["scored", "vents", "quiet", "end"]);
+    assert_eq!(names, ["scored", "vents", "quiet", "after_push", "calm", "end"]);
     let row = Summary::new("mock", "nominal", &result.filters[0]);
     near(phases[0].errors[0].rmse, row.position.rmse.unwrap());
-    let end = &phases[3];
+    let end = &phases[5];
     let all: Vec<f64> = (0..RUNS).flat_map(|run| squares(run, 31..=40)).collect();
     near(end.errors[0].rmse, rms(&all));
     near(end.errors[0].largest, all.iter().copied().fold(0.0, f64::max).sqrt());
@@ -160,7 +160,7 @@ fn what_is_not_there_is_named_with_what_is() {
         (r#"{"metric": "filter", "at_most": 1}"#, "no metric 'filter'"),
         (
             r#"{"metric": "nees", "phase": "start", "at_most": 1}"#,
-            "scored, vents, quiet, end",
+            "scored, vents, quiet, after_push, calm, end",
         ),
         (r#"{"metric": "nees", "filter": "ukf", "at_most": 1}"#, "only good"),
         (r#"{"metric": "pos_p95_m", "share": 0.9, "at_most": 1}"#, "pos_max_m"),

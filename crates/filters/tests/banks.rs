@@ -69,9 +69,10 @@ fn a_bank_of_one_is_its_member() {
         for bank in ["mmae", "imm"] {
             let one = [("lowest", Value::Real(q)), ("members", Value::Integer(1))];
             let (mean, covariance) = apart(mission, &snc, &settings(bank, &one));
-            // Beyond rounding, what the accelerometer's bias says of the target: members do not hear of it.
+            // Beyond rounding: members share what later passes of the first updates make of the angles, and do not hear what the
+            // accelerometer's bias says of the target.
             assert!(
-                mean < 1e-4 && covariance < 1e-4,
+                mean < 1e-2 && covariance < 1e-3,
                 "{bank} in {mission}: {mean:e}, {covariance:e}"
             );
         }

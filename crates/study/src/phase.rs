@@ -135,7 +135,7 @@ impl Phases {
     fn holds(&self, rule: &Phase, truth: &TruthSample) -> bool {
         let time = truth.time;
         let range = truth.position.norm();
-        let acts = |wanted: bool| (truth.since_push == Some(0.0)) == wanted;
+        let acts = |wanted: bool| truth.pushed == wanted;
         let pushed = |within: f64| truth.since_push.is_some_and(|since| since <= within + SAME_TIME);
         let after = |length: f64| {
             let since = |end: &f64| (-SAME_TIME..=length + SAME_TIME).contains(&(time - end));
@@ -192,9 +192,8 @@ mod tests {
         let sample = |t: u32| TruthSample {
             time: f64::from(t),
             position: Vector3::new(0.0, f64::from(t), 0.0),
-            since_push: (t >= 500)
-                .then(|| f64::from(t.saturating_sub(510)))
-                .map(|s| if t < 510 { 0.0 } else { s }),
+            pushed: (500..510).contains(&t),
+            since_push: (t >= 500).then(|| f64::from(t.saturating_sub(510))),
             ..TruthSample::default()
         };
         (1..=1000)
@@ -216,6 +215,8 @@ mod tests {
         assert_eq!(epochs(&phases, "scored"), (300..=1000).collect::<Vec<_>>());
         assert_eq!(epochs(&phases, "vents"), (500..510).collect::<Vec<_>>());
         assert_eq!(epochs(&phases, "quiet").len(), 691);
+        assert_eq!(epochs(&phases, "after_push"), (500..=570).collect::<Vec<_>>());
+        assert_eq!(epochs(&phases, "calm").len(), 701 - 71);
         assert_eq!(epochs(&phases, "begin"), (1..=20).collect::<Vec<_>>());
         assert_eq!(epochs(&phases, "near"), (300..=400).collect::<Vec<_>>());
         assert_eq!(epochs(&phases, "far_vents"), (505..510).collect::<Vec<_>>());

@@ -205,6 +205,7 @@ impl TruthReader {
             count,
             epoch: 0,
             time,
+            pushed: acts,
             since_push: self.push.since(time),
             position: vector(self.position),
             velocity: vector(self.velocity),

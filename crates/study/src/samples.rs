@@ -29,7 +29,9 @@ pub struct TruthSample {
     pub chaser: Option<(Vector3<f64>, Vector3<f64>)>,
     /// Whether a sensor that sees the target measured it at this sample.
     pub measured: bool,
-    /// Time since something that no filter is told of has pushed the target, s: 0 while it does; `None` where it never has.
+    /// Whether something that no filter is told of pushes the target.
+    pub pushed: bool,
+    /// Time since it last has, s: 0 while it does and at the first sample after; `None` where it never has.
     pub since_push: Option<f64>,
 }
 

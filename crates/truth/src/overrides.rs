@@ -516,7 +516,7 @@ mod tests {
                     keys.insert(format!("{section}.{key}"), value.to_owned());
                 }
             }
-            keys.insert("vent_scale".into(), run.vent_scale.to_string());
+            keys.insert("vent_scale".into(), format!("{:?}", run.vent_scale));
             keys.insert("target_burn".into(), format!("{:?}", run.target_burn));
             keys
         };
@@ -539,6 +539,8 @@ mod tests {
                 ("target_burn", _) => "target_burn".to_owned(),
                 ("target" | "chaser", _) => format!("{owner}.mass_kg"),
                 ("nav_init", _) => format!("initial_error.{quantity}_{}", row.unit.replace('/', "_")),
+                ("unmodelled", "white") => "unmodelled.white_m_s1_5".to_owned(),
+                ("unmodelled", _) => format!("unmodelled.{quantity}_{}", row.unit.replace('/', "_")),
                 (_, "sigma_angle") => format!("sensors.{owner}.sigma_angle_deg"),
                 _ if row.unit.is_empty() => format!("sensors.{owner}.{quantity}"),
                 _ => format!("sensors.{owner}.{quantity}_{}", row.unit.replace('/', "_")),

@@ -101,7 +101,7 @@ impl Levels {
         let levels: Self = toml::from_str(text).map_err(|error| wrong(error.to_string()))?;
         let mut names = BTreeSet::new();
         for level in &levels.levels {
-            check_case(&level.name).map_err(&wrong)?;
+            check_case(&level.name).map_err(|why| wrong(format!("level '{}': {why}", level.name)))?;
             if !names.insert(&level.name) {
                 return Err(wrong(format!("there are two levels '{}'", level.name)));
             }

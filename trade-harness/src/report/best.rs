@@ -231,7 +231,8 @@ fn is_text(column: usize) -> bool {
 pub const LEGEND: &str = "\
 rank: place by what the filters were tuned for; the other errors come with it;
 NEES6: of position and velocity, 1 on average when consistent; untuned: RMSE of
-the filter as named to --filters, in the same worlds. More columns: --wide, best.md and best.csv";
+the filter as named to --filters, in the same worlds. More columns: --wide,
+best.md and best.csv";
 
 /// How to read the table with all columns.
 pub const WIDE_LEGEND: &str = "\

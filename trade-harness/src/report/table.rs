@@ -9,8 +9,9 @@ use crate::format::{number, plain_table};
 
 /// How to read the columns, below each table.
 pub const LEGEND: &str = "\
-NEES, NIS: 1 on average when consistent, above when the filter claims too little
-error; NEES6: of position and velocity alone; runs that failed or diverged. More columns: --wide, and summary.csv";
+NEES: 1 on average when consistent, above when the filter claims too little
+error; NEES6: of position and velocity alone, which all filters share; runs that
+failed or diverged. More columns: --wide, and summary.csv";
 
 /// The same, below the wide table.
 pub const WIDE_LEGEND: &str = "\
@@ -19,14 +20,13 @@ mean err: mean error over its sampling noise (about 1 when unbiased); NEES, NIS:
 nav: time in the filter's fmi2DoStep; FMI: share of the time of truth and filter spent on the interface, not the models";
 
 /// Headings and the columns of `summary.csv` below them; they fit 80 columns.
-const SHOWN: [(&str, &str); 9] = [
+const SHOWN: [(&str, &str); 8] = [
     ("filter", "filter"),
     ("pos RMSE\n[m]", "pos_rmse_m"),
     ("vel RMSE\n[m/s]", "vel_rmse_m_s"),
     ("acc RMSE\n[m/s2]", "acc_rmse_m_s2"),
     ("NEES", "nees"),
     ("NEES6", "nees6"),
-    ("NIS", "nis"),
     ("failed", "failed"),
     ("diver-\nged", "diverged"),
 ];

@@ -196,6 +196,7 @@ impl Estimator for LvlhState {
             step.p_post = core.p;
         }
         step.correction = core.x - prior;
+        step.linear = step.correction;
         Ok(Some(seen))
     }
 

@@ -419,6 +419,7 @@ impl Estimator for InertialState {
         };
         step.p_prior.copy_from(&core.p.fixed_view::<9, 9>(0, 0));
         let nis = update_all(&mut core, &stack, step).map_err(|e| e.at(sample.time))?;
+        step.linear = (core.x - prior).fixed_rows::<9>(0).into_owned();
         if stack.target_rows > 0 {
             self.relinearise(&mut core, &prior, sample, step)?;
         }

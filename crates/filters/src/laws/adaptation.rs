@@ -30,6 +30,8 @@ pub struct Step {
     pub log_likelihood: f64,
     /// What the update, accelerometer rows included, added to the target's nine states.
     pub correction: Target,
+    /// The part of it that the first pass of the update made: the gain at the predicted state times the innovation.
+    pub linear: Target,
     /// Covariance of the target's nine states before the update, 9x9; zero without a covariance.
     pub p_prior: TargetMatrix,
     /// The same after it.
@@ -48,6 +50,7 @@ impl Step {
             s: RowMatrix::zeros(),
             log_likelihood: 0.0,
             correction: Target::zeros(),
+            linear: Target::zeros(),
             p_prior: TargetMatrix::zeros(),
             p_post: TargetMatrix::zeros(),
         }

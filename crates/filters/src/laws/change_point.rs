@@ -82,9 +82,10 @@ impl ChangePoint {
     /// # Errors
     /// When a tunable is out of range.
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
+        let changes = velocity_changes(setup)?;
         Ok(Self {
-            centre: Centre::new(setup.r),
-            changes: velocity_changes(setup)?,
+            centre: Centre::new(setup.r, changes.density()),
+            changes,
         })
     }
 }

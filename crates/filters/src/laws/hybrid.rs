@@ -75,15 +75,23 @@ impl Hybrid {
                 p: TargetMatrix::zeros(),
             },
         });
+        let (changes, white) = (velocity_changes(setup)?, Decades::new(&WHITE, setup));
+        let weights = Weights::new(&prior, setup.tunables.real(MEMORY.name)? / setup.units.time);
+        let density = density(&changes, &white, weights.get());
         Ok(Self {
-            centre: Centre::new(setup.r),
-            changes: velocity_changes(setup)?,
-            white: Decades::new(&WHITE, setup),
+            centre: Centre::new(setup.r, density),
+            changes,
+            white,
             walking: walking.to_vec(),
-            weights: Weights::new(&prior, setup.tunables.real(MEMORY.name)? / setup.units.time),
+            weights,
             acceleration: (told.p0.acceleration / setup.units.acceleration()).powi(2),
         })
     }
+}
+
+/// White acceleration density of the bank; what walks has none.
+fn density(changes: &VelocityChanges, white: &Decades, weights: &[f64]) -> f64 {
+    weights[0] * changes.density() + white.density(&weights[1..])
 }
 
 impl Adaptation for Hybrid {
@@ -117,7 +125,7 @@ impl Adaptation for Hybrid {
             mixture.add(*weight, &dx, &member.p.fixed_view::<6, 6>(0, 0).into_owned());
         }
         let mixture = mixture.moments();
-        let density = weights[0] * self.changes.density() + self.white.density(of_white);
+        let density = density(&self.changes, &self.white, weights);
         self.changes.shift(&mixture.mean);
         self.white.shift(&mixture.mean);
         for Walking { member, .. } in &mut self.walking {

@@ -55,10 +55,11 @@ impl Imm {
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
         let decades = Decades::as_tuned(setup)?;
         let count = decades.members.len();
+        let weights = vec![1.0 / count as f64; count];
         Ok(Self {
-            centre: Centre::new(setup.r),
+            centre: Centre::new(setup.r, decades.density(&weights)),
             decades,
-            weights: vec![1.0 / count as f64; count],
+            weights,
             sojourn: setup.tunables.real(SOJOURN.name)? / setup.units.time,
         })
     }

@@ -132,10 +132,11 @@ impl Mmae {
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
         let decades = Decades::as_tuned(setup)?;
         let alike = vec![1.0; decades.members.len()];
+        let weights = Weights::new(&alike, setup.tunables.real(MEMORY.name)? / setup.units.time);
         Ok(Self {
-            centre: Centre::new(setup.r),
+            centre: Centre::new(setup.r, decades.density(weights.get())),
             decades,
-            weights: Weights::new(&alike, setup.tunables.real(MEMORY.name)? / setup.units.time),
+            weights,
         })
     }
 }

@@ -49,7 +49,11 @@ fn of_mission(mission: &str, rows: &[&Row]) -> Sheet {
     let (levels, filters) = (names(rows, "level"), names(rows, "filter"));
     let place = |v: f64| v.clamp(EDGES[0], EDGES[1]).log10();
     let panel = |title: &str, column: &str| {
-        let values = rows.iter().filter_map(|row| row.number(column)).chain([1.0]);
+        let ends = ["", "_low", "_high"].map(|end| format!("{column}{end}"));
+        let values = rows
+            .iter()
+            .flat_map(|row| ends.iter().filter_map(|name| row.number(name)))
+            .chain([1.0]);
         let x = Axis::powers(
             range(values.map(place)),
             &format!("{title} RMSE over that of the best constant"),
@@ -94,9 +98,7 @@ fn of_mission(mission: &str, rows: &[&Row]) -> Sheet {
     Sheet {
         panel: (560, 90 + 46 * levels.len() as u32),
         across: 2,
-        name: format!(
-            "{mission}: laws against the best constant in hindsight, 95 % intervals; hollow: beyond the edge"
-        ),
+        name: format!("{mission}, 95 % intervals"),
         keys: keys.collect(),
         panels: vec![panel("position", "pos_ratio"), panel("velocity", "vel_ratio")],
     }

@@ -97,6 +97,7 @@ fn spread(axis: &Vector3<f64>, sigma: f64, directions: &mut Generator) -> Vector
 mod tests {
     use super::*;
     use crate::Params;
+    use crate::overrides::VentScale;
     use interface::mission::Mission;
 
     fn of(run: u32) -> Run {
@@ -178,12 +179,33 @@ mod tests {
 
     #[test]
     fn scale_multiplies_magnitudes_and_nothing_else() {
-        let scaled = |vent_scale: f64| draw(&Run { vent_scale, ..of(0) });
+        let scale = |vent_scale: VentScale| draw(&Run { vent_scale, ..of(0) });
+        let scaled = |factor: f64| {
+            scale(VentScale {
+                factor,
+                ..VentScale::default()
+            })
+        };
         for (plain, scaled) in draw(&of(0)).iter().zip(&scaled(4.0)) {
             assert!((body(plain) * 4.0 - body(scaled)).amax() < 1e-19);
             assert_eq!(plain.start, scaled.start);
         }
         assert!(scaled(0.0).iter().all(|vent| body(vent) == Vector3::zeros()));
+        // Another factor for those that begin late, that instant included.
+        let late = draw(&of(0))[4].start;
+        let changed = scale(VentScale {
+            factor: 2.0,
+            late: Some(100.0),
+            late_from_s: late,
+        });
+        for (plain, changed) in draw(&of(0)).iter().zip(&changed) {
+            let factor = if plain.start >= late { 100.0 } else { 2.0 };
+            assert!(
+                (body(plain) * factor - body(changed)).amax() < 1e-18,
+                "{} s",
+                plain.start
+            );
+        }
     }
 
     /// Moments of each distribution from its textbook.

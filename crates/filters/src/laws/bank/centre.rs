@@ -10,7 +10,7 @@ use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use serde::{Deserialize, Serialize};
 
 /// The centre between two samples.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::laws) struct Centre {
     /// Noise variances of the rows, internal units.
     r: RowVector,
@@ -30,7 +30,7 @@ pub(in crate::laws) struct Shared {
     pub common: Matrix6<f64>,
     /// What was measured.
     pub seen: Seen,
-    /// By how much the linear update of the centre has moved it.
+    /// By how much the first pass of the update has moved the centre; what later passes make of nonlinear rows, members share.
     correction: Vector6<f64>,
     /// Covariance of the centre before the update where there is no earlier step.
     first: Option<Matrix6<f64>>,
@@ -42,8 +42,9 @@ pub(in crate::laws) struct Shared {
 
 impl Centre {
     /// * `r`: noise variances of the rows in the places of the layout, internal units.
-    pub(in crate::laws) fn new(r: RowVector) -> Self {
-        Self { r, ..Self::default() }
+    /// * `density`: of white acceleration, up to the first sample.
+    pub(in crate::laws) fn new(r: RowVector, density: f64) -> Self {
+        Self { r, last: None, density }
     }
 
     /// What the members need of a step.
@@ -60,17 +61,12 @@ impl Centre {
             }
         };
         let seen = Seen::new(step, &self.r);
-        let mut centre = Member::<6> {
-            dx: Vector6::zeros(),
-            p: prior,
-        };
-        centre.update(&seen);
         Shared {
             dt: step.dt,
             f,
             common,
             seen,
-            correction: centre.dx,
+            correction: step.linear.fixed_rows::<6>(0).into_owned(),
             first: self.last.is_none().then_some(prior),
             post: six(&step.p_post),
             predicted: predicted(mixture_prior, &seen),

@@ -13,7 +13,7 @@ pub(in crate::laws) struct Row {
     pub h: RowVector6<f64>,
     /// Measured minus predicted at the centre.
     pub innovation: f64,
-    /// Noise variance.
+    /// Noise variance, with what errors of the chaser add to it where the row hangs on those, too.
     pub r: f64,
 }
 
@@ -39,11 +39,13 @@ impl Seen {
             count: 0,
         };
         for place in (0..MAX_ROWS).filter(|place| step.measured.has(*place)) {
+            let h: RowVector6<f64> = step.h.fixed_view::<1, 6>(place, 0).into_owned();
+            let of_target = (h * step.p_prior.fixed_view::<6, 6>(0, 0) * h.transpose())[0];
             seen.rows[seen.count] = Row {
                 place,
-                h: step.h.fixed_view::<1, 6>(place, 0).into_owned(),
+                h,
                 innovation: step.innovation[place],
-                r: r[place],
+                r: (step.s[(place, place)] - of_target).max(r[place]),
             };
             seen.count += 1;
         }

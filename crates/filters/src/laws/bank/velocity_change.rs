@@ -76,6 +76,19 @@ struct Hypothesis {
     slot: u64,
     /// Time to the next one opened, s.
     span: f64,
+    /// What the data say for each size, as [`Hypothesis::given`] has it.
+    ln_data: [f64; 5],
+}
+
+/// A change of one size, given the data.
+#[derive(Clone, Copy, Debug)]
+struct Posterior {
+    /// Logarithm of the likelihood against "no change".
+    ln_likelihood: f64,
+    /// V d.
+    mean: Vector3<f64>,
+    /// V, 3x3.
+    v: Matrix3<f64>,
 }
 
 /// Every hypothesis against "no change", whose weight is 1.
@@ -147,7 +160,7 @@ impl VelocityChanges {
         }
         shared.predict(&mut self.quiet, &shared.f, &white(self.density, shared.dt), 0.0);
         self.thin();
-        let before = self.weigh();
+        let before = self.ln_total();
         let mut log_likelihood = 0.0;
         for row in shared.seen.iter() {
             let taken = self.quiet.take(row);
@@ -160,8 +173,8 @@ impl VelocityChanges {
             }
         }
         shared.follow(&mut self.quiet);
-        self.weighed = self.weigh();
-        log_likelihood += self.weighed.ln_total - before.ln_total;
+        self.weigh();
+        log_likelihood += self.weighed.ln_total - before;
         if self.weighed.quiet < DECIDED {
             self.decide();
         }
@@ -195,41 +208,46 @@ impl VelocityChanges {
         self.quiet.dx -= shift;
     }
 
-    /// Logarithm of the changes of each size that are expected in the time for which a hypothesis stands.
-    fn ln_priors(&self, hypothesis: &Hypothesis) -> [f64; 5] {
-        let slot = spacing(hypothesis.age).max(hypothesis.span).min(hypothesis.age);
-        std::array::from_fn(|i| ((self.prior[i] + self.found[i]) / (PRIOR_TIME + self.elapsed) * slot).ln())
+    /// Logarithms of the rates at which changes of each size are expected, 1/s.
+    fn ln_rates(&self) -> [f64; 5] {
+        std::array::from_fn(|i| ((self.prior[i] + self.found[i]) / (PRIOR_TIME + self.elapsed)).ln())
     }
 
-    fn weigh(&self) -> Weighed {
-        let log_weights: Vec<([f64; 5], [(Vector3<f64>, Matrix3<f64>); 5])> = self
-            .open
-            .iter()
-            .map(|hypothesis| {
-                let ln_priors = self.ln_priors(hypothesis);
-                let posts = self.sizes.map(|c| hypothesis.given(c));
-                let logs = std::array::from_fn(|i| ln_priors[i] + posts[i].0);
-                (logs, posts.map(|(_, mean, v)| (mean, v)))
-            })
-            .collect();
-        let logs = log_weights.iter().flat_map(|(logs, _)| logs.iter().copied());
-        let most = logs.clone().fold(0.0, f64::max);
-        let sum = (-most).exp() + logs.map(|log| (log - most).exp()).sum::<f64>();
-        let ln_total = most + sum.ln();
-        let parts = log_weights.iter().map(|(logs, posts)| {
-            let mut part = Part::default();
-            for ((weight, log), (mean, v)) in part.weights.iter_mut().zip(logs).zip(posts) {
-                *weight = (log - ln_total).exp();
-                part.first += mean * *weight;
-                part.second += v * *weight;
-                part.second.ger(*weight, mean, mean, 1.0);
-            }
-            part
+    /// Logarithm of the sum of all weights, "no change" being 1, with what the data have said so far.
+    fn ln_total(&self) -> f64 {
+        let rates = self.ln_rates();
+        let weights = self.open.iter().map(|hypothesis| {
+            let ln_slot = hypothesis.ln_slot();
+            let of_size = |i: usize| (rates[i] + ln_slot + hypothesis.ln_data[i]).exp();
+            (0..5).map(of_size).sum::<f64>()
         });
-        Weighed {
-            ln_total,
-            quiet: (-ln_total).exp(),
-            parts: parts.collect(),
+        (1.0 + weights.sum::<f64>()).ln()
+    }
+
+    /// What the data now say of every hypothesis.
+    fn weigh(&mut self) {
+        let rates = self.ln_rates();
+        let posteriors: Vec<[Posterior; 5]> = self.open.iter().map(|h| self.sizes.map(|c| h.given(c))).collect();
+        for (hypothesis, of_size) in self.open.iter_mut().zip(&posteriors) {
+            hypothesis.ln_data = std::array::from_fn(|i| of_size[i].ln_likelihood);
+        }
+        let ln_total = self.ln_total();
+        self.weighed.ln_total = ln_total;
+        self.weighed.quiet = (-ln_total).exp();
+        self.weighed.parts.clear();
+        for (hypothesis, of_size) in self.open.iter().zip(&posteriors) {
+            let ln_slot = hypothesis.ln_slot();
+            let mut part = Part::default();
+            for (i, posterior) in of_size.iter().enumerate() {
+                let weight = (rates[i] + ln_slot + posterior.ln_likelihood - ln_total).exp();
+                part.weights[i] = weight;
+                if weight > NEGLIGIBLE {
+                    part.first += posterior.mean * weight;
+                    part.second += posterior.v * weight;
+                    part.second.ger(weight, &posterior.mean, &posterior.mean, 1.0);
+                }
+            }
+            self.weighed.parts.push(part);
         }
     }
 
@@ -301,6 +319,7 @@ impl VelocityChanges {
             age: 0.0,
             slot: (self.elapsed / spacing(0.0)).round() as u64,
             span: 0.0,
+            ln_data: [0.0; 5],
         });
         self.weighed.parts.push(Part::default());
         self.since = 0.0;
@@ -308,17 +327,37 @@ impl VelocityChanges {
 }
 
 impl Hypothesis {
-    /// A change of this size, given the data: logarithm of its likelihood against "no change", mean V d, covariance V.
-    fn given(&self, size: f64) -> (f64, Vector3<f64>, Matrix3<f64>) {
+    /// Logarithm of the time for which it stands, s.
+    fn ln_slot(&self) -> f64 {
+        spacing(self.age).max(self.span).min(self.age).ln()
+    }
+
+    /// A change of this size, given the data.
+    fn given(&self, size: f64) -> Posterior {
         let precision = self.c + Matrix3::from_diagonal_element(1.0 / (size * size));
-        let Some(v) = precision.try_inverse() else {
-            return (f64::NEG_INFINITY, Vector3::zeros(), Matrix3::zeros());
+        // By cofactors, which give inverse and determinant at once; the sum of a covariance and a multiple of I is far from singular.
+        let m = |i: usize, j: usize| precision[(i, j)];
+        let cofactor = |i: usize, j: usize| {
+            let ([a, b], [c, d]) = (others(i), others(j));
+            m(a, c) * m(b, d) - m(a, d) * m(b, c)
         };
+        let cofactors = Matrix3::from_fn(cofactor);
+        let det = precision.row(0).dot(&cofactors.row(0));
+        let v = cofactors / det;
         let mean = v * self.d;
         // det(I + c^2 C) = c^6 det(C + I / c^2).
-        let ln_det = (precision.determinant() * size.powi(6)).ln();
-        (0.5 * (self.d.dot(&mean) - ln_det), mean, v)
+        let ln_det = (det * size.powi(6)).ln();
+        Posterior {
+            ln_likelihood: 0.5 * (self.d.dot(&mean) - ln_det),
+            mean,
+            v,
+        }
     }
+}
+
+/// The other two of three places, in the order that makes cofactors of them.
+fn others(place: usize) -> [usize; 2] {
+    [(place + 1) % 3, (place + 2) % 3]
 }
 
 /// How far apart hypotheses of this age stand, s.
@@ -388,13 +427,13 @@ mod tests {
         }
         assert!((changes.quiet.dx - quiet.dx).amax() < 1e-12);
         let hypothesis = &changes.open[0];
-        let (log_ratio, mean, v) = hypothesis.given(size);
+        let Posterior { ln_likelihood, mean, v } = hypothesis.given(size);
         let off = hypothesis.e * mean;
         let covariance = quiet.p + hypothesis.e * v * hypothesis.e.transpose();
         assert!(off.amax() > 1e-4, "there is something to compare");
         assert!((quiet.dx + off - run.dx).amax() < 1e-10);
         assert!((covariance - run.p).amax() < 1e-10);
-        assert!((log_ratio - (of_run - of_quiet)).abs() < 1e-9);
+        assert!((ln_likelihood - (of_run - of_quiet)).abs() < 1e-9);
     }
 
     /// After an hour of samples without news there are no more hypotheses than the spacings allow, and they stand as these say.
