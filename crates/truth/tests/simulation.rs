@@ -440,3 +440,35 @@ fn motion_beyond_the_numbers_is_an_error() {
     let mut run = start(&Params::default());
     assert_eq!(run.advance_to(5.0, &huge), Err(TruthError::StateNotFinite { t: 1.0 }));
 }
+
+/// Vents are events, the chaser's burns and an acceleration that never stops are none, and an input is one.
+#[test]
+fn what_no_filter_is_told_of_is_said_while_it_pushes_the_target() {
+    let params = with(
+        &Params::default(),
+        &[("unmodelled.wander_sigma", 1e-6), ("vent.scale", 10.0)],
+    );
+    let quiet = Inputs::default();
+    let mut run = start(&params);
+    let vents: Vec<(f64, f64)> = run
+        .timeline()
+        .events()
+        .iter()
+        .filter(|e| !e.told && e.side == truth::Side::Target)
+        .map(|e| (e.start, e.start + e.duration))
+        .collect();
+    assert!(vents.len() > 5);
+    let mut active = 0;
+    for t in 1..2000 {
+        let t = f64::from(t);
+        run.advance_to(t, &quiet).unwrap();
+        let expected = vents.iter().any(|(begin, end)| *begin < t + 1.0 && *end > t);
+        assert_eq!(run.now().event_active, expected, "{t} s");
+        assert!(run.now().a_t_n.norm() > 0.0, "it wanders");
+        active += u32::from(expected);
+    }
+    assert!(active > 20, "{active}");
+    // From the grid point at which the input is taken over.
+    run.advance_to(2001.0, &shove()).unwrap();
+    assert!(run.now().event_active);
+}

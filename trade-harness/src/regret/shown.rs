@@ -16,7 +16,11 @@ fn ratio(ratio: Option<Ratio>) -> String {
     let Some(Ratio { value, interval }) = ratio else {
         return number(None);
     };
-    let short = |v: f64| format!("{v:.3}");
+    // Three digits, however far off.
+    let short = |v: f64| {
+        let digits = (2.0 - v.abs().log10().floor()).clamp(0.0, 3.0) as usize;
+        format!("{v:.digits$}")
+    };
     interval.map_or_else(
         || short(value),
         |[low, high]| format!("{} ({}, {})", short(value), short(low), short(high)),

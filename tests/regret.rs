@@ -1,0 +1,141 @@
+//! `regret` as its user meets it: levels and constants of their own, what is kept, and mistakes.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
+
+mod common;
+
+use common::{harness, harness_ok, read_csv};
+use std::collections::HashMap;
+use std::path::Path;
+
+const LEVELS: &str = r#"
+[[level]]
+name = "as_it_is"
+[[level]]
+name = "strong"
+missions = ["leo_venting"]
+set = ["fmu-truth.vent.scale=100"]
+[[level]]
+name = "elsewhere"
+missions = ["nrho_venting"]
+[[fixed]]
+filter = "snc"
+values = { q = [1e-7, 3e-5, 1e-3] }
+"#;
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+fn number(row: &HashMap<String, String>, column: &str) -> f64 {
+    row[column]
+        .parse()
+        .unwrap_or_else(|_| panic!("{column}: {:?}", row[column]))
+}
+
+#[test]
+fn laws_are_held_against_the_best_constant_of_each_level() {
+    let folder = tempfile::tempdir().unwrap();
+    let (levels, out) = (folder.path().join("levels.toml"), folder.path().join("out"));
+    std::fs::write(&levels, LEVELS).unwrap();
+    let line = |runs: &'static str, more: &'static [&'static str]| {
+        let line = [
+            "regret",
+            "--levels",
+            text(&levels),
+            "--filters",
+            "hybrid",
+            "--runs",
+            runs,
+            "--scouts",
+            "2",
+            "--seed",
+            "7",
+            "--out",
+            text(&out),
+        ];
+        [&line[..], more].concat()
+    };
+    let table = harness_ok(&line("5", &[]));
+    assert!(
+        table.contains("hybrid")
+            && table
+                .lines()
+                .take_while(|l| !l.is_empty())
+                .all(|l| l.chars().count() <= 80)
+    );
+    let rows = read_csv(&out.join("regret.csv"));
+    for (level, q) in [("as_it_is", "snc(q=3e-5)"), ("strong", "snc(q=1e-3)")] {
+        let own: Vec<_> = rows.iter().filter(|r| r["level"] == level).collect();
+        let law = own.iter().find(|r| r["filter"] == "hybrid").unwrap();
+        // The quietest is dishonest where vents are strong, and the loudest far off where they are not.
+        assert_eq!((law["pos_best"].as_str(), law["kind"].as_str()), (q, "law"), "{level}");
+        let best = own.iter().find(|r| r["filter"] == q).unwrap();
+        assert_eq!(number(best, "pos_ratio").to_bits(), 1.0_f64.to_bits());
+        let ratio = number(law, "pos_rmse_m") / number(best, "pos_rmse_m");
+        assert!((number(law, "pos_ratio") / ratio - 1.0).abs() < 1e-12);
+        assert!(number(law, "pos_ratio_low") <= ratio && ratio <= number(law, "pos_ratio_high"));
+    }
+    assert!(rows.iter().all(|r| r["level"] != "elsewhere"));
+    for file in [
+        "regret.md",
+        "figures/leo_venting_regret.svg",
+        "figures/leo_venting_regret.png",
+    ] {
+        assert!(out.join(file).is_file(), "{file}");
+    }
+
+    // What is through is not run again, and not mixed with anything else.
+    let kept = out.join("trials/leo_venting_strong.json");
+    let (before, csv) = (
+        std::fs::metadata(&kept).unwrap(),
+        std::fs::read(out.join("regret.csv")).unwrap(),
+    );
+    harness_ok(&line("5", &["--jobs", "1"]));
+    assert_eq!(
+        before.modified().unwrap(),
+        std::fs::metadata(&kept).unwrap().modified().unwrap()
+    );
+    assert_eq!(csv, std::fs::read(out.join("regret.csv")).unwrap());
+    let refused = harness(&line("6", &[]));
+    let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(refused.status.code() == Some(2) && told.contains("--force"), "{told}");
+    harness_ok(&line("6", &["--force", "--at", "strong"]));
+    assert!(
+        read_csv(&out.join("regret.csv"))
+            .iter()
+            .all(|r| r["runs"] == "6" && r["level"] == "strong")
+    );
+}
+
+#[test]
+fn mistakes_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let (levels, out) = (folder.path().join("levels.toml"), folder.path().join("out"));
+    for (from, to, says) in [
+        ("snc", "sncc", "sncc"),
+        ("q = [1e-7", "q = [-1.0", "snc.q"),
+        ("q = [1e-7", "r = [1e-7", "snc.r"),
+        ("vent.scale=100", "vent.size=100", "vent.size"),
+        ("[[fixed]]", "[[fix]]", "levels.toml"),
+    ] {
+        std::fs::write(&levels, LEVELS.replace(from, to)).unwrap();
+        let line = [
+            "regret",
+            "--levels",
+            text(&levels),
+            "--filters",
+            "hybrid",
+            "--runs",
+            "5",
+            "--out",
+            text(&out),
+        ];
+        let refused = harness(&line);
+        let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(refused.status.code() == Some(2) && told.contains(says), "{to}: {told}");
+    }
+    let refused = harness(&["regret", "--at", "never", "--out", text(&out)]);
+    let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(refused.status.code() == Some(2) && told.contains("vents_10"), "{told}");
+}
