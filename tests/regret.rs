@@ -114,7 +114,7 @@ fn mistakes_are_told() {
     let (levels, out) = (folder.path().join("levels.toml"), folder.path().join("out"));
     for (from, to, says) in [
         ("snc", "sncc", "sncc"),
-        ("q = [1e-7", "q = [-1.0", "snc.q"),
+        ("q = [1e-7", "q = [-3.0", "snc.q"),
         ("q = [1e-7", "r = [1e-7", "snc.r"),
         ("vent.scale=100", "vent.size=100", "vent.size"),
         ("[[fixed]]", "[[fix]]", "levels.toml"),
