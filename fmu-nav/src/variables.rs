@@ -334,6 +334,8 @@ fn shown(port: &Port) -> Option<Shown> {
         "q.updates" => Integer(Navigator::updates),
         "q.skipped" => Integer(Navigator::skipped),
         "q.unsolved" => Integer(Navigator::unsolved),
+        "edited.outliers" => Integer(Navigator::outliers),
+        "edited.impossible" => Integer(Navigator::impossible),
         "status" => Status,
         "cov.sigma" => Real(|n, i| n.estimate().sigma[i]),
         "cov.p" => Real(|n, i| n.estimate().p_target[(i / 9, i % 9)]),

@@ -13,6 +13,7 @@
 pub mod beliefs;
 mod disturbance;
 pub mod dynamics;
+mod editing;
 mod error;
 mod estimators;
 mod gravity;

@@ -2,12 +2,13 @@
 
 use crate::beliefs::Beliefs;
 use crate::dynamics::AccelerationModel;
+use crate::editing::Editing;
 use crate::error::FilterError;
 use crate::estimators::{Gap, Kind, Reported};
 use crate::innovation::Innovation;
 use crate::laws::{Adaptation, FILTERS, FilterEntry, Law, Replacement, Setup, Step, Update, registry};
 use crate::layout::Layout;
-use crate::sample::Sample;
+use crate::sample::{Reading, Sample};
 use crate::state::{RowVector, State, Target, TargetMatrix};
 use crate::tunable::{Tunables, Value};
 use crate::units::Units;
@@ -116,6 +117,9 @@ pub struct Navigator {
     estimator: Kind,
     law: Law,
     divergence: Divergence,
+    editing: Editing,
+    /// Noise variances of the rows, internal units.
+    r: RowVector,
     estimate: Estimate,
     innovation: Innovation,
     status: Status,
@@ -210,6 +214,8 @@ impl Navigator {
                 samples: Positive.check("divergence.samples", f64::from(b.divergence_samples), "")?,
                 mean: 1.0,
             },
+            editing: editing(filter, b)?,
+            r: Kind::noise(&told),
             estimate: Estimate {
                 time: start_time,
                 count: 0,
@@ -233,6 +239,8 @@ impl Navigator {
         if sample.count <= self.estimate.count {
             return Ok(());
         }
+        let mut possible = sample.clone();
+        let sample = &mut possible;
         let (t_s, last_s) = (sample.time, self.estimate.time);
         let gap_s = t_s - last_s;
         if gap_s.is_nan() || gap_s <= 0.0 {
@@ -252,6 +260,7 @@ impl Navigator {
         }
         let estimator = self.estimator.get_mut();
         estimator.check(sample)?;
+        self.editing.remove_impossible(sample, self.layout);
         if !estimator.started() {
             if nav_init.iter().all(|v| *v == 0.0) {
                 return Err(FilterError::NoInitialEstimate { t_s });
@@ -268,6 +277,16 @@ impl Navigator {
         let f = estimator.propagate(&gap, sample, &self.law)?;
         let mut step = Step::blank(gap_s / self.units.time, f);
         let mut seen = estimator.update(sample, &mut step)?;
+        if let Some(all) = seen {
+            let excess = self.law.excess(&f.fixed_view::<6, 6>(0, 0).into_owned());
+            let outliers = self.editing.find(&step, all.nis, excess.as_ref(), self.layout, &self.r);
+            if !outliers.is_empty() {
+                outliers.into_iter().for_each(|sensor| sample[sensor] = Reading::Lost);
+                estimator.undo();
+                step = Step::blank(gap_s / self.units.time, f);
+                seen = estimator.update(sample, &mut step)?;
+            }
+        }
         if let Some(defect) = estimator.defect(t_s) {
             return Err(defect);
         }
@@ -369,6 +388,16 @@ impl Navigator {
         self.law.updates()
     }
 
+    /// Samples of a sensor that were passed by as outliers.
+    pub fn outliers(&self) -> i32 {
+        self.editing.outliers()
+    }
+
+    /// Samples of a sensor that were passed by since they cannot be: a range that is not positive, a number that is none.
+    pub fn impossible(&self) -> i32 {
+        self.editing.impossible()
+    }
+
     /// How often the law's solver found no solution.
     pub fn unsolved(&self) -> i32 {
         self.law.unsolved()
@@ -378,6 +407,36 @@ impl Navigator {
     pub fn skipped(&self) -> i32 {
         self.law.skipped()
     }
+}
+
+/// How a filter edits its measurements.
+///
+/// # Errors
+/// When a parameter is out of range.
+fn editing(filter: &FilterEntry, b: &Beliefs) -> Result<Editing, FilterError> {
+    let refused = |name: &str, value: f64, permitted: &str| FilterError::OutOfRange {
+        name: name.into(),
+        value,
+        unit: "",
+        permitted: permitted.into(),
+    };
+    let on = match b.editing_mode {
+        -1 => filter.edits,
+        0 => false,
+        1 => true,
+        other => return Err(refused("editing.mode", f64::from(other), "-1, 0 or 1")),
+    };
+    let share = Positive.check("editing.outlier_share", b.editing_outlier_share, "")?;
+    if share >= 0.5 {
+        return Err(refused("editing.outlier_share", share, "between 0 and 0.5"));
+    }
+    if b.editing_most_in_a_row < 0 {
+        let most = f64::from(b.editing_most_in_a_row);
+        return Err(refused("editing.most_in_a_row", most, "0 or more"));
+    }
+    // Without a covariance there is no likelihood.
+    let looks = on && matches!(filter.update, Update::Kalman);
+    Ok(Editing::new(looks.then_some(share), b.editing_most_in_a_row))
 }
 
 /// An innovation as a law sees it that keeps filters of its own: the residual is of the mean, which is the law's already.

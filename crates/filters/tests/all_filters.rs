@@ -438,3 +438,66 @@ fn registry_is_complete() {
         }
     }
 }
+
+/// Changes what the sensors of the target have seen.
+fn spoil(sample: &mut Sample, how: impl Fn(&mut f64)) {
+    for reading in &mut sample.sensors {
+        if let Reading::Seen(z) = reading {
+            how(&mut z[0]);
+        }
+    }
+}
+
+/// A sample that is off by kilometres, whatever the sensor: a filter that edits stays where it is, and counts.
+#[test]
+fn a_wild_sample_moves_no_filter_that_edits() {
+    let edits = |label: &str| {
+        let name = label.split(' ').next().unwrap();
+        FILTERS.iter().any(|entry| entry.name == name && entry.edits)
+    };
+    let mut moved = 0.0_f64;
+    for (label, mut nav, mut world, start) in everywhere(8, 1e-7) {
+        for k in 1..=400 {
+            let mut sample = world.step();
+            let before = nav.estimate().clone();
+            let wild = k >= 300 && k % 20 == 0;
+            if wild {
+                spoil(&mut sample, |z| *z += 5000.0);
+            }
+            nav.process(&sample, &start).unwrap();
+            let step = (nav.estimate().x - before.x).fixed_rows::<3>(0).norm();
+            let drift = before.x.fixed_rows::<3>(3).norm() + 0.5;
+            if wild && edits(&label) {
+                assert!(step < drift, "{label}: moved by {step} m");
+                assert_eq!(nav.status(), Status::Coasting, "{label}");
+            } else if wild {
+                moved = moved.max(step);
+            }
+        }
+        assert_eq!(nav.outliers(), if edits(&label) { 6 } else { 0 }, "{label}");
+    }
+    assert!(moved > 1.0, "a filter that does not is moved: {moved} m");
+}
+
+/// A range that is not positive and a number that is none are never used, by any filter.
+#[test]
+fn an_impossible_sample_is_a_dropout() {
+    for (label, mut nav, mut world, start) in everywhere(9, 1e-7) {
+        let mut passed_by = 0;
+        for k in 1..=300 {
+            let mut sample = world.step();
+            match k {
+                250 => spoil(&mut sample, |z| *z = f64::NAN),
+                260 if label.ends_with("leo_venting") => spoil(&mut sample, |z| *z = -*z),
+                _ => (),
+            }
+            nav.process(&sample, &start).unwrap();
+            if nav.impossible() > passed_by {
+                passed_by = nav.impossible();
+                assert_eq!(nav.status(), Status::Coasting, "{label} at {k} s");
+            }
+        }
+        assert_eq!(passed_by, if label.ends_with("leo_venting") { 2 } else { 1 }, "{label}");
+        assert!(nav.estimate().x.iter().all(|v| v.is_finite()), "{label}");
+    }
+}

@@ -314,6 +314,9 @@ pub const PORTS: &[Port] = &[
     row(Estimate, "q.skipped", Integer, Scalar, &[], &["updates passed by because the adaptation window was singular"]),
     row(Estimate, "q.unsolved", Integer, Scalar, &[],
         &["updates at which the law's solver found no solution, so that the last process noise stayed"]),
+    row(Estimate, "edited.outliers", Integer, Scalar, &[], &["samples of a sensor that were passed by as most likely outliers"]),
+    row(Estimate, "edited.impossible", Integer, Scalar, &[],
+        &["samples of a sensor that were passed by since they cannot be: a range that is not positive, a number that is none"]),
     rows(Of::Camera, Innovation(0), "innov.camera", Vector(2), &["rad"], &[
         "azimuth of the camera, measured minus predicted", "elevation of the camera, measured minus predicted",
     ]),

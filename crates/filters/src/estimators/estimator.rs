@@ -48,6 +48,9 @@ pub(crate) trait Estimator {
     /// * returns: the innovation in SI; `None` when nothing was measured of the target.
     fn update(&mut self, sample: &Sample, step: &mut Step) -> Result<Option<Innovation>, FilterError>;
 
+    /// Goes back to before the last update.
+    fn undo(&mut self);
+
     /// Moves the mean of relative position and velocity, internal units; the covariance stays that of its own gain.
     fn shift(&mut self, by: &Vector6<f64>);
 

@@ -57,6 +57,9 @@ pub(crate) struct LvlhState {
     initial_p: TargetMatrix,
     /// Mean and covariance of rho, rho_dot and d; `None` until the first sample.
     core: Option<Gaussian<N_TARGET>>,
+    /// The same before the last update; of no use after the next propagation.
+    #[serde(skip)]
+    before: Option<Gaussian<N_TARGET>>,
 }
 
 impl LvlhState {
@@ -103,6 +106,7 @@ impl LvlhState {
             r: super::sights::noise(told).fixed_rows::<6>(0).into_owned(),
             initial_p: TargetMatrix::from_diagonal(&Target::from_fn(|i, _| p0[i / 3].powi(2))),
             core: None,
+            before: None,
         })
     }
 }
@@ -167,6 +171,7 @@ impl Estimator for LvlhState {
         let Some(measured) = sample[Sensor::Metrology].seen() else {
             return Ok(None);
         };
+        self.before = Some(core.clone());
         let prior = core.x;
         let residual = measured.fixed_rows::<6>(0) - core.x.fixed_rows::<6>(0);
         step.measured.mark(0..6);
@@ -198,6 +203,12 @@ impl Estimator for LvlhState {
         step.correction = core.x - prior;
         step.linear = step.correction;
         Ok(Some(seen))
+    }
+
+    fn undo(&mut self) {
+        if let Some(before) = self.before.take() {
+            self.core = Some(before);
+        }
     }
 
     fn shift(&mut self, by: &Vector6<f64>) {

@@ -6,6 +6,7 @@ use super::sights::{self, InLvlh};
 use super::told::{Manoeuvres, Place};
 use crate::beliefs::Beliefs;
 use crate::dynamics::{AccelerationModel, Drive, TwoVehicles, initial_covariance};
+use crate::editing::wrapped;
 use crate::error::FilterError;
 use crate::gravity::Gravity;
 use crate::innovation::Innovation;
@@ -43,6 +44,9 @@ pub(crate) struct InertialState {
     passes: u32,
     /// Mean and covariance; `None` until the first sample.
     core: Option<Gaussian>,
+    /// The same before the last update; of no use after the next propagation.
+    #[serde(skip)]
+    before: Option<Gaussian>,
 }
 
 /// Most rows of an update: those of the target and three of the bias.
@@ -145,6 +149,7 @@ impl InertialState {
             },
             passes: told.update_passes,
             core: None,
+            before: None,
         })
     }
 
@@ -160,8 +165,10 @@ impl InertialState {
             by_target = Some(h * lvlh.by_target);
             h *= lvlh.by_relative;
         }
-        for (row, place) in self.layout.of_sensor(sensor).into_iter().flatten().enumerate() {
-            let at = stack.push(z[row] / self.si[place] - predicted[row], self.r[place]);
+        let places = self.layout.of_sensor(sensor).into_iter().flatten();
+        for ((row, place), quantity) in places.enumerate().zip(sensor.quantities()) {
+            let difference = wrapped(z[row] / self.si[place] - predicted[row], quantity);
+            let at = stack.push(difference, self.r[place]);
             stack.places[at] = place;
             stack.h.fixed_view_mut::<1, 6>(at, 0).copy_from(&h.fixed_rows::<1>(row));
             // r_t = r_tc + r_c: the axes hang on both alike.
@@ -432,7 +439,7 @@ impl Estimator for InertialState {
         }
         step.correction = (core.x - prior).fixed_rows::<9>(0).into_owned();
         step.p_post.copy_from(&core.p.fixed_view::<9, 9>(0, 0));
-        self.core = Some(core);
+        self.before = self.core.replace(core);
         if stack.target_rows == 0 {
             return Ok(None);
         }
@@ -446,6 +453,12 @@ impl Estimator for InertialState {
             nis,
             rows: stack.target_rows,
         }))
+    }
+
+    fn undo(&mut self) {
+        if let Some(before) = self.before.take() {
+            self.core = Some(before);
+        }
     }
 
     fn shift(&mut self, by: &Vector6<f64>) {

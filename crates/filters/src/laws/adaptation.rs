@@ -8,7 +8,7 @@ use crate::layout::{Layout, Measured};
 use crate::state::{RowMatrix, RowVector, Rows, Target, TargetMatrix};
 use crate::tunable::Tunables;
 use crate::units::Units;
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 /// What a law sees of one processed sample; internal units. Rows stand in the places of [`Setup::layout`].
@@ -88,6 +88,14 @@ pub trait Adaptation {
     /// What stands in place of the update's mean and covariance after the sample last observed, for a law that keeps filters of
     /// its own.
     fn replacement(&self) -> Option<&Replacement> {
+        None
+    }
+
+    /// By how much the covariance of position and velocity that the law stands for is larger than the estimator's own, before the
+    /// next sample.
+    ///
+    /// * `f`: transition to it, 6x6.
+    fn excess(&self, _f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
         None
     }
 

@@ -9,6 +9,7 @@ use crate::error::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
 use crate::tunable::{Bound, Kind, Preset, Start, Tunable};
+use nalgebra::Matrix6;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
@@ -16,6 +17,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "quiet filter with hypotheses of velocity changes at past times, weighed by the data",
     motion: Motion::OfFrame,
     update: Update::Kalman,
+    edits: true,
     tunables: &[QUIET, RATE],
     presets: &[Preset {
         name: "paper",
@@ -110,6 +112,10 @@ impl Adaptation for ChangePoint {
 
     fn replacement(&self) -> Option<&Replacement> {
         self.centre.said()
+    }
+
+    fn excess(&self, f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
+        self.centre.excess(f)
     }
 
     fn updates(&self) -> i32 {

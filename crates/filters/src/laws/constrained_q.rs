@@ -31,6 +31,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "the correlation regression solved for a bounded jerk density by a conic programme",
     motion: Motion::OfFrame,
     update: Update::Kalman,
+    edits: false,
     tunables: &[
         M_B,
         RESIDUALS,

@@ -46,6 +46,8 @@ pub struct FilterEntry {
     pub motion: Motion,
     /// Its update.
     pub update: Update,
+    /// Whether it looks for outliers unless told otherwise; what reproduces a paper does not.
+    pub edits: bool,
     /// Parameters it offers.
     pub tunables: &'static [Tunable],
     /// Named sets; the first is always `paper`.

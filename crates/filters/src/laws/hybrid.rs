@@ -12,7 +12,7 @@ use crate::error::FilterError;
 use crate::jerk;
 use crate::state::{Target, TargetMatrix};
 use crate::tunable::{Preset, Tunables};
-use nalgebra::Vector3;
+use nalgebra::{Matrix6, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// White accelerations, square roots of the densities, m/s^1.5.
@@ -27,6 +27,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "bank of velocity-change hypotheses, white accelerations by the decade and walking accelerations",
     motion: Motion::OfFrame,
     update: Update::Kalman,
+    edits: true,
     tunables: &[QUIET, RATE, MEMORY],
     presets: &[Preset {
         name: "paper",
@@ -138,6 +139,10 @@ impl Adaptation for Hybrid {
 
     fn replacement(&self) -> Option<&Replacement> {
         self.centre.said()
+    }
+
+    fn excess(&self, f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
+        self.centre.excess(f)
     }
 
     fn updates(&self) -> i32 {

@@ -9,6 +9,7 @@ use crate::error::FilterError;
 use crate::jerk;
 use crate::state::TargetMatrix;
 use crate::tunable::{Bound, Kind, Preset, Start, Tunable};
+use nalgebra::Matrix6;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
@@ -16,6 +17,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "interacting multiple models over snc filters a decade of q apart (Blom and Bar-Shalom)",
     motion: Motion::OfFrame,
     update: Update::Kalman,
+    edits: true,
     tunables: &[LOWEST, MEMBERS, SOJOURN],
     presets: &[Preset {
         name: "paper",
@@ -121,5 +123,9 @@ impl Adaptation for Imm {
 
     fn replacement(&self) -> Option<&Replacement> {
         self.centre.said()
+    }
+
+    fn excess(&self, f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
+        self.centre.excess(f)
     }
 }

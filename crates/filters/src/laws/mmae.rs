@@ -16,6 +16,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "multiple-model adaptive estimation over snc filters a decade of q apart (Magill)",
     motion: Motion::OfFrame,
     update: Update::Kalman,
+    edits: true,
     tunables: &[LOWEST, MEMBERS, MEMORY],
     presets: &[Preset {
         name: "paper",
@@ -166,5 +167,9 @@ impl Adaptation for Mmae {
 
     fn replacement(&self) -> Option<&Replacement> {
         self.centre.said()
+    }
+
+    fn excess(&self, f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
+        self.centre.excess(f)
     }
 }

@@ -8,7 +8,7 @@ use crate::dynamics::AccelerationModel;
 use crate::error::FilterError;
 use crate::state::TargetMatrix;
 use interface::Navigation;
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 /// Makes the registry: the list of entries, the constructors, and the closed set of laws that a saved FMU state can hold.
@@ -119,6 +119,9 @@ impl Adaptation for Law {
     }
     fn replacement(&self) -> Option<&Replacement> {
         self.inner().replacement()
+    }
+    fn excess(&self, f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
+        self.inner().excess(f)
     }
     fn s(&self) -> Vector3<f64> {
         self.inner().s()

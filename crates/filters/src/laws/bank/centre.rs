@@ -90,6 +90,11 @@ impl Centre {
         self.last.as_ref().map(|(_, said)| said)
     }
 
+    /// As [`crate::laws::Adaptation::excess`].
+    pub(in crate::laws) fn excess(&self, f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
+        self.last.as_ref().map(|(own, said)| f * (said.p - own) * f.transpose())
+    }
+
     /// White acceleration density of the mixture.
     pub(in crate::laws) fn density(&self) -> f64 {
         self.density
