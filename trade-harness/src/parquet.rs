@@ -13,7 +13,7 @@ use crate::HarnessError;
 
 /// Columns of text and of whole numbers, by the names that they have in every file; all others are numbers.
 const TEXT: &[&str] = &["filter", "status"];
-const WHOLE: &[&str] = &["sample", "measured", "run", "runs"];
+const WHOLE: &[&str] = &["sample", "measured", "run", "runs", "nis_runs"];
 
 /// What a column holds.
 #[derive(Clone, Copy, PartialEq)]

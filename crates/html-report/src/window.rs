@@ -56,6 +56,8 @@ pub(crate) fn window(epochs: &Epochs, scored_from_s: f64) -> Option<Window> {
         axes.collect::<Vec<_>>()
     });
     let (nees, nis) = (epochs.column("nees"), epochs.column("nis"));
+    // A study of an earlier version does not say in how many runs there was a measurement.
+    let measured = epochs.column("nis_runs").unwrap_or(runs);
     let length = time.len().div_ceil(STRETCHES).max(1);
     let mut window = Window::default();
     let mut in_stretch = 0;
@@ -80,9 +82,12 @@ pub(crate) fn window(epochs: &Epochs, scored_from_s: f64) -> Option<Window> {
                 None => sums.add(stretch, 0.0, 0.0),
             }
         }
-        for (sums, column) in [(&mut window.nees, nees), (&mut window.nis, nis)] {
-            match column.and_then(|c| c[index]) {
-                Some(mean) => sums.add(stretch, mean, 1.0),
+        for (sums, column, weight) in [
+            (&mut window.nees, nees, Some(n)),
+            (&mut window.nis, nis, measured[index]),
+        ] {
+            match Option::zip(column.and_then(|c| c[index]), weight) {
+                Some((mean, weight)) => sums.add(stretch, weight * mean, weight),
                 None => sums.add(stretch, 0.0, 0.0),
             }
         }
@@ -115,7 +120,20 @@ mod tests {
         // 1000 epochs of two runs whose squared norm is 25.
         assert!((total(&window.squares[0].sum) - 50_000.0).abs() < 1e-6);
         assert!((total(&window.squares[0].weight) - 2000.0).abs() < 1e-6);
-        assert!((total(&window.nees.sum) - 750.0).abs() < 1e-6 && (total(&window.nees.weight) - 500.0).abs() < 1e-6);
+        assert!((total(&window.nees.sum) - 1500.0).abs() < 1e-6 && (total(&window.nees.weight) - 1000.0).abs() < 1e-6);
+        // The second of two runs measured at a fifth of the epochs: a mean of both counts twice.
+        let both = |t: usize| t % 5 == 0;
+        let told = Epochs {
+            header: ["t_s", "runs", "nis", "nis_runs"].map(str::to_owned).into(),
+            columns: vec![
+                epochs.columns[0].clone(),
+                epochs.columns[1].clone(),
+                (0..1000).map(|t| Some(if both(t) { 3.0 } else { 1.0 })).collect(),
+                (0..1000).map(|t| Some(if both(t) { 2.0 } else { 1.0 })).collect(),
+            ],
+        };
+        let nis = super::window(&told, 302.0).unwrap().nis;
+        assert!((total(&nis.sum) / total(&nis.weight) - 2000.0 / 1200.0).abs() < 1e-12);
         assert!(total(&window.squares[1].weight).abs() < 1e-12);
     }
 }

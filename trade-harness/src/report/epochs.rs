@@ -38,7 +38,8 @@ fn axes(spec: &Spec, quantity: Quantity) -> Option<[Axis; 3]> {
 }
 
 /// Contents of the file: at each sample the number of runs and, by axis, the mean error, Eq. (31), the sample sigma,
-/// Eq. (32), and the estimated sigma, Eq. (33); then mean NEES over its dimension, mean NIS over its rows, and for a filter
+/// Eq. (32), and the estimated sigma, Eq. (33); then mean NEES over its dimension, mean NIS over its rows with the number of runs that
+/// have one, and for a filter
 /// that tells it the mean of `q.s`, the root of the jerk density in axes N, with its standard deviation over the runs.
 ///
 /// Sigmas are single, not triple; epochs before the scored time are included.
@@ -56,7 +57,7 @@ pub fn render(spec: &Spec, result: &FilterResult) -> Result<Vec<u8>, HarnessErro
             header.extend(["mean", "sample_sigma", "est_sigma"].map(|kind| format!("{kind}_{name}_{unit}")));
         }
     }
-    header.extend(["nees".to_owned(), "nis".to_owned()]);
+    header.extend(["nees", "nis", "nis_runs"].map(str::to_owned));
     let jerk_root = result.ensemble(Quantity::JerkRoot);
     if jerk_root.epochs() > 0 {
         header.extend((1..=3).flat_map(|i| ["mean", "spread"].map(|kind| format!("{kind}_q_s_{i}_m_s2_5"))));
@@ -79,7 +80,9 @@ pub fn render(spec: &Spec, result: &FilterResult) -> Result<Vec<u8>, HarnessErro
             }
         }
         record.push(cell(result.nees.at(epoch).map(|(_, mean)| mean)));
-        record.push(cell(result.nis.at(epoch).map(|(_, mean)| mean)));
+        let nis = result.nis.at(epoch);
+        record.push(cell(nis.map(|(_, mean)| mean)));
+        record.push(nis.map_or(0, |(runs, _)| runs).to_string());
         if jerk_root.epochs() > 0 {
             let moments = jerk_root.at(epoch);
             // Rounding may leave the variance of equal values below zero.

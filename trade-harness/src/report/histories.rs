@@ -84,6 +84,11 @@ const EPOCHS: &[[&str; 3]] = &[
     ["nees", "1", "mean NEES over its states"],
     ["nis", "1", "mean NIS over its rows"],
     [
+        "nis_runs",
+        "",
+        "runs that it is the mean of: those in which a sensor measured the target and was not passed by",
+    ],
+    [
         "spread_q_s_<axis>_m_s2_5",
         "m/s^2.5",
         "standard deviation over runs of q",
