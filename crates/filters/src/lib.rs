@@ -5,6 +5,8 @@
 //!   registered filter names one of each; adding a law is one file and one line.
 //! * `estimators` puts a state, its dynamics and its update together for a frame: both vehicles in axes N, 18 states, or the
 //!   relative state in the target's LVLH axes, nine.
+//! * A law may keep filters of its own beside the estimator's (`laws::bank`); what is reported is then their mixture. Which samples
+//!   are passed by is said in `editing`.
 //! * What a filter is told of a mission is [`interface::Navigation`]; [`Beliefs`] are what a user sets in its place, and
 //!   [`tunable`] says how a law's start values come from the mission's scales.
 //!
