@@ -15,6 +15,9 @@ use serde::{Deserialize, Serialize};
 
 /// Variance of an outlier's noise over that of any other, less one.
 const MORE: f64 = 99.0;
+/// Time after the first sample in which nothing is taken for an outlier, s: the first estimate is too far off for the slopes that it is
+/// updated with, and what it leaves is none of the sensors' doing.
+pub(crate) const SETTLING: f64 = 30.0;
 /// Most rows that a sensor has.
 const MOST: usize = 6;
 
@@ -25,6 +28,8 @@ pub(crate) struct Editing {
     share: Option<f64>,
     /// Most samples of a sensor that are passed by one after the other.
     most: i32,
+    /// Epoch of the first sample, s.
+    first_s: Option<f64>,
     in_a_row: [i32; Sensor::COUNT],
     outliers: i32,
     impossible: i32,
@@ -37,6 +42,7 @@ impl Editing {
         Self {
             share,
             most,
+            first_s: None,
             in_a_row: [0; Sensor::COUNT],
             outliers: 0,
             impossible: 0,
@@ -55,6 +61,7 @@ impl Editing {
 
     /// Sensors whose sample cannot be: a range that is not positive, or anything that is no number.
     pub(crate) fn remove_impossible(&mut self, sample: &mut Sample, layout: Layout) {
+        self.first_s.get_or_insert(sample.time);
         for sensor in Sensor::ALL {
             if let (Some(_), Some(z)) = (layout.of_sensor(sensor), sample[sensor].seen()) {
                 let numbers = z.iter().take(sensor.rows()).all(|v| v.is_finite());
@@ -69,19 +76,22 @@ impl Editing {
 
     /// Sensors whose sample is most likely an outlier; each is counted.
     ///
+    /// * `t_s`: epoch of the sample.
     /// * `step`: as the update with all of them has left it.
     /// * `nis`: of that update.
     /// * `excess`: by how much the covariance of position and velocity that counts was larger than that of the update, 6x6.
     /// * `r`: noise variances of the rows.
     pub(crate) fn find(
         &mut self,
+        t_s: f64,
         step: &Step,
         nis: f64,
         excess: Option<&Matrix6<f64>>,
         layout: Layout,
         r: &RowVector,
     ) -> Vec<Sensor> {
-        let Some(share) = self.share else {
+        let settled = self.first_s.is_some_and(|first| t_s - first >= SETTLING);
+        let Some(share) = self.share.filter(|_| settled) else {
             return Vec::new();
         };
         let odds = ((1.0 - share) / share).ln();
@@ -164,10 +174,16 @@ mod tests {
         step
     }
 
+    fn settled(share: Option<f64>) -> Editing {
+        let mut editing = Editing::new(share, 3);
+        editing.first_s = Some(0.0);
+        editing
+    }
+
     fn finds(editing: &mut Editing, v: f64, excess: Option<&Matrix6<f64>>) -> bool {
         let layout = Layout::new(&[Sensor::Lidar]);
         !editing
-            .find(&step(v), 0.5 * v * v, excess, layout, &RowVector::repeat(1.0))
+            .find(100.0, &step(v), 0.5 * v * v, excess, layout, &RowVector::repeat(1.0))
             .is_empty()
     }
 
@@ -175,16 +191,25 @@ mod tests {
     #[test]
     fn an_outlier_is_what_is_more_likely_one() {
         let edge = ((99.0_f64.ln() + 1.5 * (101.0_f64 / 2.0).ln()) / (0.25 - 1.0 / 202.0)).sqrt();
-        let mut editing = Editing::new(Some(0.01), 3);
+        let mut editing = settled(Some(0.01));
         assert!(!finds(&mut editing, edge - 1e-9, None));
         assert!(finds(&mut editing, edge + 1e-9, None));
         assert_eq!(editing.outliers(), 1);
-        assert!(!finds(&mut Editing::new(None, 3), 1e9, None));
+        assert!(!finds(&mut settled(None), 1e9, None));
+    }
+
+    #[test]
+    fn nothing_is_an_outlier_before_the_filter_has_settled() {
+        let mut editing = Editing::new(Some(0.01), 3);
+        editing.first_s = Some(100.0 - SETTLING + 1.0);
+        assert!(!finds(&mut editing, 1e3, None));
+        editing.first_s = Some(100.0 - SETTLING);
+        assert!(finds(&mut editing, 1e3, None));
     }
 
     #[test]
     fn not_more_than_three_in_a_row_are_passed_by() {
-        let mut editing = Editing::new(Some(0.01), 3);
+        let mut editing = settled(Some(0.01));
         let found: Vec<bool> = (0..9).map(|_| finds(&mut editing, 100.0, None)).collect();
         assert_eq!(found, [true, true, true, false, true, true, true, false, true]);
         assert_eq!(editing.outliers(), 7);
@@ -197,8 +222,8 @@ mod tests {
         let layout = Layout::new(&[Sensor::Lidar]);
         let unsure = Matrix6::from_diagonal_element(400.0);
         let found = |excess: Option<&Matrix6<f64>>| {
-            let mut editing = Editing::new(Some(0.01), 3);
-            editing.find(&step, 200.0, excess, layout, &RowVector::repeat(1.0))
+            let mut editing = settled(Some(0.01));
+            editing.find(100.0, &step, 200.0, excess, layout, &RowVector::repeat(1.0))
         };
         assert_eq!(found(None), [Sensor::Lidar]);
         assert_eq!(found(Some(&unsure)), []);

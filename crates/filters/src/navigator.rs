@@ -279,7 +279,9 @@ impl Navigator {
         let mut seen = estimator.update(sample, &mut step)?;
         if let Some(all) = seen {
             let excess = self.law.excess(&f.fixed_view::<6, 6>(0, 0).into_owned());
-            let outliers = self.editing.find(&step, all.nis, excess.as_ref(), self.layout, &self.r);
+            let outliers = self
+                .editing
+                .find(t_s, &step, all.nis, excess.as_ref(), self.layout, &self.r);
             if !outliers.is_empty() {
                 outliers.into_iter().for_each(|sensor| sample[sensor] = Reading::Lost);
                 estimator.undo();

@@ -122,7 +122,7 @@ mod tests {
         assert!((total(&window.squares[0].weight) - 2000.0).abs() < 1e-6);
         assert!((total(&window.nees.sum) - 1500.0).abs() < 1e-6 && (total(&window.nees.weight) - 1000.0).abs() < 1e-6);
         // The second of two runs measured at a fifth of the epochs: a mean of both counts twice.
-        let both = |t: usize| t % 5 == 0;
+        let both = |t: usize| t.is_multiple_of(5);
         let told = Epochs {
             header: ["t_s", "runs", "nis", "nis_runs"].map(str::to_owned).into(),
             columns: vec![

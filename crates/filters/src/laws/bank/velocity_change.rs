@@ -14,6 +14,7 @@
 use super::centre::{Shared, white};
 use super::member::Member;
 use super::mixture::{Mixture, Moments};
+use crate::editing::SETTLING;
 use crate::units::Units;
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
@@ -304,7 +305,8 @@ impl VelocityChanges {
     }
 
     fn open_next(&mut self) {
-        if self.since < spacing(0.0) - 1e-9 {
+        // What the first estimate leaves would be taken for changes, and their rates be learnt from it.
+        if self.elapsed < SETTLING || self.since < spacing(0.0) - 1e-9 {
             return;
         }
         if let Some(last) = self.open.last_mut() {
@@ -379,6 +381,7 @@ mod tests {
         let told = interface::mission::embedded("leo_venting").unwrap().mission().unwrap();
         let units: Told = told.navigation().units;
         let mut changes = VelocityChanges::new(&Parameters { quiet: 1e-3, rate: 1.0 }, &Units::of(&units));
+        changes.elapsed = SETTLING;
         for i in 0..6 {
             changes.quiet.p[(i, i)] = if i < 3 { 1.0 } else { 1e-4 };
         }
