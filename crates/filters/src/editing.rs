@@ -13,6 +13,7 @@ use interface::Sensor;
 use interface::mission::Quantity;
 use nalgebra::{Matrix6, SMatrix, SVector};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Variance of an outlier's noise over that of any other, less one.
 const MORE: f64 = 99.0;
@@ -61,14 +62,14 @@ impl Editing {
     }
 
     /// Sensors whose sample cannot be: a range that is not positive, or anything that is no number.
-    pub(crate) fn remove_impossible(&mut self, sample: &mut Sample, layout: Layout) {
+    pub(crate) fn remove_impossible(&mut self, sample: &mut Cow<'_, Sample>, layout: Layout) {
         self.first_s.get_or_insert(sample.time);
         for sensor in Sensor::ALL {
             if let (Some(_), Some(z)) = (layout.of_sensor(sensor), sample[sensor].seen()) {
                 let numbers = z.iter().take(sensor.rows()).all(|v| v.is_finite());
                 let is_range = matches!(sensor, Sensor::Lidar | Sensor::Radio);
                 if !numbers || (is_range && z[0] <= 0.0) {
-                    sample[sensor] = Reading::Lost;
+                    sample.to_mut()[sensor] = Reading::Lost;
                     self.impossible += 1;
                 }
             }
@@ -80,14 +81,14 @@ impl Editing {
     /// * `t_s`: epoch of the sample.
     /// * `step`: as the update with all of them has left it.
     /// * `nis`: of that update.
-    /// * `excess`: by how much the covariance of position and velocity that counts was larger than that of the update, 6x6.
+    /// * `excess`: tells by how much the covariance of position and velocity that counts was larger than that of the update, 6x6.
     /// * `r`: noise variances of the rows.
     pub(crate) fn find(
         &mut self,
         t_s: f64,
         step: &Step,
         nis: f64,
-        excess: Option<&Matrix6<f64>>,
+        excess: impl Fn() -> Option<Matrix6<f64>>,
         layout: Layout,
         r: &RowVector,
     ) -> Vec<Sensor> {
@@ -102,7 +103,7 @@ impl Editing {
                 continue;
             };
             // The quadratic form alone must make up for the odds; that of a part is not above that of the whole.
-            let suspect = nis >= 2.0 * odds && is_outlier(step, rows, excess, r, odds);
+            let suspect = nis >= 2.0 * odds && is_outlier(step, rows, excess().as_ref(), r, odds);
             let count = &mut self.in_a_row[sensor as usize];
             if !suspect {
                 *count = 0;
@@ -184,7 +185,14 @@ mod tests {
     fn finds(editing: &mut Editing, v: f64, excess: Option<&Matrix6<f64>>) -> bool {
         let layout = Layout::new(&[Sensor::Lidar]);
         !editing
-            .find(100.0, &step(v), 0.5 * v * v, excess, layout, &RowVector::repeat(1.0))
+            .find(
+                100.0,
+                &step(v),
+                0.5 * v * v,
+                || excess.copied(),
+                layout,
+                &RowVector::repeat(1.0),
+            )
             .is_empty()
     }
 
@@ -227,7 +235,7 @@ mod tests {
         let unsure = Matrix6::from_diagonal_element(400.0);
         let found = |excess: Option<&Matrix6<f64>>| {
             let mut editing = settled(Some(0.01));
-            editing.find(100.0, &step, 200.0, excess, layout, &RowVector::repeat(1.0))
+            editing.find(100.0, &step, 200.0, || excess.copied(), layout, &RowVector::repeat(1.0))
         };
         assert_eq!(found(None), [Sensor::Lidar]);
         assert_eq!(found(Some(&unsure)), []);
@@ -247,6 +255,7 @@ mod tests {
             let mut sample = Sample::blank(1, 1.0);
             sample[Sensor::Lidar] = Reading::of(&z);
             sample[Sensor::Camera] = Reading::of(&[-0.1, -0.2]);
+            let mut sample = Cow::Owned(sample);
             editing.remove_impossible(&mut sample, layout);
             assert_eq!(sample[Sensor::Lidar] == Reading::Lost, lost, "{z:?}");
             assert_ne!(sample[Sensor::Camera], Reading::Lost);

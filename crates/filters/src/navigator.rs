@@ -17,6 +17,7 @@ use interface::mission::Frame;
 use interface::{Navigation, Sensor, Status};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Longest gap between samples, s. A tag further ahead is a mistake of the caller, not a gap.
 const LONGEST_GAP: f64 = 1e5;
@@ -215,7 +216,7 @@ impl Navigator {
                 mean: 1.0,
             },
             editing: editing(filter, b)?,
-            r: Kind::noise(&told),
+            r: setup.r,
             estimate: Estimate {
                 time: start_time,
                 count: 0,
@@ -239,8 +240,7 @@ impl Navigator {
         if sample.count <= self.estimate.count {
             return Ok(());
         }
-        let mut possible = sample.clone();
-        let sample = &mut possible;
+        let mut sample = Cow::Borrowed(sample);
         let (t_s, last_s) = (sample.time, self.estimate.time);
         let gap_s = t_s - last_s;
         if gap_s.is_nan() || gap_s <= 0.0 {
@@ -259,8 +259,8 @@ impl Navigator {
             });
         }
         let estimator = self.estimator.get_mut();
-        estimator.check(sample)?;
-        self.editing.remove_impossible(sample, self.layout);
+        estimator.check(&sample)?;
+        self.editing.remove_impossible(&mut sample, self.layout);
         if !estimator.started() {
             if nav_init.iter().all(|v| *v == 0.0) {
                 return Err(FilterError::NoInitialEstimate { t_s });
@@ -274,19 +274,20 @@ impl Navigator {
             length_s: gap_s,
             start_s: self.start_s,
         };
-        let f = estimator.propagate(&gap, sample, &self.law)?;
+        let f = estimator.propagate(&gap, &sample, &self.law)?;
         let mut step = Step::blank(gap_s / self.units.time, f);
-        let mut seen = estimator.update(sample, &mut step)?;
+        let mut seen = estimator.update(&sample, &mut step)?;
         if let Some(all) = seen {
-            let excess = self.law.excess(&f.fixed_view::<6, 6>(0, 0).into_owned());
-            let outliers = self
-                .editing
-                .find(t_s, &step, all.nis, excess.as_ref(), self.layout, &self.r);
+            // Asked for only where there is something to doubt.
+            let excess = || self.law.excess(&f.fixed_view::<6, 6>(0, 0).into_owned());
+            let outliers = self.editing.find(t_s, &step, all.nis, excess, self.layout, &self.r);
             if !outliers.is_empty() {
-                outliers.into_iter().for_each(|sensor| sample[sensor] = Reading::Lost);
+                outliers
+                    .into_iter()
+                    .for_each(|sensor| sample.to_mut()[sensor] = Reading::Lost);
                 estimator.undo();
                 step = Step::blank(gap_s / self.units.time, f);
-                seen = estimator.update(sample, &mut step)?;
+                seen = estimator.update(&sample, &mut step)?;
             }
         }
         if let Some(defect) = estimator.defect(t_s) {
@@ -294,7 +295,7 @@ impl Navigator {
         }
         // A law learns from what is measured of the target and of how long it took: a fast accelerometer must not cut that up.
         let whole = Between::with(self.between.take(), &step);
-        let due = self.layout.any_due(sample);
+        let due = self.layout.any_due(&sample);
         if due {
             (step.dt, step.f, step.correction) = (whole.dt, whole.f, whole.correction);
             self.law.observe(&step)?;
@@ -309,7 +310,7 @@ impl Navigator {
             self.between = Some(whole);
         }
         self.law.look_ahead(&estimator.relative());
-        let Reported { x, p_target, sigma } = estimator.report(sample, &self.law);
+        let Reported { x, p_target, sigma } = estimator.report(&sample, &self.law);
         self.estimate = Estimate {
             time: sample.time,
             count: sample.count,

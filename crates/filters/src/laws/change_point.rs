@@ -1,15 +1,12 @@
 //! A quiet filter and the question whether the velocity has changed: the answer is left open until the data give it.
 
-use super::adaptation::{Adaptation, Setup, Step};
+use super::adaptation::Setup;
 use super::bank::velocity_change::{Parameters, VelocityChanges};
-use super::bank::{Centre, Replacement};
+use super::bank::{Bank, CONSTANTS, Centre, Mixture, Shared};
 use super::entry::{FilterEntry, Motion, Search, Update};
-use crate::dynamics::AccelerationModel;
 use crate::error::FilterError;
-use crate::jerk;
-use crate::state::TargetMatrix;
-use crate::tunable::{Bound, Kind, Preset, Start, Tunable};
-use nalgebra::Matrix6;
+use crate::tunable::{Bound, Kind, Start, Tunable};
+use nalgebra::Vector6;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
@@ -19,12 +16,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     update: Update::Kalman,
     edits: true,
     tunables: &[QUIET, RATE],
-    presets: &[Preset {
-        name: "paper",
-        about: "the constants of docs/laws.md, the same in every mission",
-        other_reading: false,
-        sets: &[],
-    }],
+    presets: &[CONSTANTS],
     search: &[
         Search {
             tunable: QUIET.name,
@@ -92,33 +84,32 @@ impl ChangePoint {
     }
 }
 
-impl Adaptation for ChangePoint {
-    fn acceleration(&self) -> AccelerationModel {
-        AccelerationModel::Absent
+impl Bank for ChangePoint {
+    fn centre(&self) -> &Centre {
+        &self.centre
     }
 
-    fn process_noise(&self, dt: f64) -> TargetMatrix {
-        jerk::white_acceleration(self.centre.density(), dt)
+    fn centre_mut(&mut self) -> &mut Centre {
+        &mut self.centre
     }
 
-    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
-        let shared = self.centre.shared(step);
-        self.changes.take(&shared);
-        let mixture = self.changes.moments();
-        self.changes.shift(&mixture.mean);
-        self.centre.say(&shared, mixture, self.changes.density());
-        Ok(())
+    fn take(&mut self, shared: &Shared) {
+        self.changes.take(shared);
     }
 
-    fn replacement(&self) -> Option<&Replacement> {
-        self.centre.said()
+    fn mixture(&self) -> Mixture {
+        self.changes.mixture()
     }
 
-    fn excess(&self, f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
-        self.centre.excess(f)
+    fn density(&self) -> f64 {
+        self.changes.density()
     }
 
-    fn updates(&self) -> i32 {
+    fn shift(&mut self, by: &Vector6<f64>) {
+        self.changes.shift(by);
+    }
+
+    fn decisions(&self) -> i32 {
         self.changes.decisions()
     }
 }

@@ -1,18 +1,17 @@
 //! A bank of what each kind of disturbance asks for: velocity-change hypotheses for vents and burns, white accelerations by the
 //! decade for what never stops, a walking acceleration for what lasts.
 
-use super::adaptation::{Adaptation, Setup, Step};
+use super::adaptation::Setup;
 use super::bank::velocity_change::VelocityChanges;
-use super::bank::{Centre, Member, Mixture, Replacement, Weights};
+use super::bank::{Bank, CONSTANTS, Centre, Member, Mixture, Shared, Weights};
 use super::change_point::{QUIET, RATE, velocity_changes};
 use super::entry::{FilterEntry, Motion, Update};
 use super::mmae::{Decades, MEMORY};
-use crate::dynamics::AccelerationModel;
 use crate::error::FilterError;
 use crate::jerk;
 use crate::state::{Target, TargetMatrix};
-use crate::tunable::{Preset, Tunables};
-use nalgebra::{Matrix6, Vector3};
+use crate::tunable::Tunables;
+use nalgebra::{Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 /// White accelerations, square roots of the densities, m/s^1.5.
@@ -29,12 +28,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     update: Update::Kalman,
     edits: true,
     tunables: &[QUIET, RATE, MEMORY],
-    presets: &[Preset {
-        name: "paper",
-        about: "the constants of docs/laws.md, the same in every mission",
-        other_reading: false,
-        sets: &[],
-    }],
+    presets: &[CONSTANTS],
     search: &[],
 };
 
@@ -95,57 +89,54 @@ fn density(changes: &VelocityChanges, white: &Decades, weights: &[f64]) -> f64 {
     weights[0] * changes.density() + white.density(&weights[1..])
 }
 
-impl Adaptation for Hybrid {
-    fn acceleration(&self) -> AccelerationModel {
-        AccelerationModel::Absent
+impl Bank for Hybrid {
+    fn centre(&self) -> &Centre {
+        &self.centre
     }
 
-    fn process_noise(&self, dt: f64) -> TargetMatrix {
-        jerk::white_acceleration(self.centre.density(), dt)
+    fn centre_mut(&mut self) -> &mut Centre {
+        &mut self.centre
     }
 
-    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
-        let shared = self.centre.shared(step);
-        let mut likelihoods = vec![self.changes.take(&shared)];
-        self.white.take(&shared, &mut likelihoods);
+    fn take(&mut self, shared: &Shared) {
+        let mut likelihoods = vec![self.changes.take(shared)];
+        self.white.take(shared, &mut likelihoods);
         let f = shared.with_acceleration();
         for Walking { density, member } in &mut self.walking {
             let noise = jerk::process_noise(&Vector3::repeat(*density), shared.dt);
             likelihoods.push(shared.take(member, &f, &noise, self.acceleration));
         }
         self.weights.update(shared.dt, &likelihoods);
+    }
 
+    fn mixture(&self) -> Mixture {
         let weights = self.weights.get();
         let (of_white, of_walking) = weights[1..].split_at(self.white.members.len());
         let mut mixture = Mixture::default();
-        let changes = self.changes.moments();
+        let changes = self.changes.mixture().moments();
         mixture.add(weights[0], &changes.mean, &changes.p);
         self.white.add_to(&mut mixture, of_white);
         for (Walking { member, .. }, weight) in self.walking.iter().zip(of_walking) {
             let dx = member.dx.fixed_rows::<6>(0).into_owned();
             mixture.add(*weight, &dx, &member.p.fixed_view::<6, 6>(0, 0).into_owned());
         }
-        let mixture = mixture.moments();
-        let density = density(&self.changes, &self.white, weights);
-        self.changes.shift(&mixture.mean);
-        self.white.shift(&mixture.mean);
+        mixture
+    }
+
+    fn density(&self) -> f64 {
+        density(&self.changes, &self.white, self.weights.get())
+    }
+
+    fn shift(&mut self, by: &Vector6<f64>) {
+        self.changes.shift(by);
+        self.white.shift(by);
         for Walking { member, .. } in &mut self.walking {
             let mut deviation = member.dx.fixed_rows_mut::<6>(0);
-            deviation -= mixture.mean;
+            deviation -= by;
         }
-        self.centre.say(&shared, mixture, density);
-        Ok(())
     }
 
-    fn replacement(&self) -> Option<&Replacement> {
-        self.centre.said()
-    }
-
-    fn excess(&self, f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
-        self.centre.excess(f)
-    }
-
-    fn updates(&self) -> i32 {
+    fn decisions(&self) -> i32 {
         self.changes.decisions()
     }
 }

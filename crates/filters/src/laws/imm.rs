@@ -1,15 +1,12 @@
 //! Interacting multiple models over constant white-acceleration densities (Blom and Bar-Shalom, 1988).
 
-use super::adaptation::{Adaptation, Setup, Step};
-use super::bank::{Centre, Mixture, Replacement};
+use super::adaptation::Setup;
+use super::bank::{Bank, CONSTANTS, Centre, Mixture, Shared, reweigh};
 use super::entry::{FilterEntry, Motion, Search, Update};
 use super::mmae::{Decades, LOWEST, MEMBERS};
-use crate::dynamics::AccelerationModel;
 use crate::error::FilterError;
-use crate::jerk;
-use crate::state::TargetMatrix;
-use crate::tunable::{Bound, Kind, Preset, Start, Tunable};
-use nalgebra::Matrix6;
+use crate::tunable::{Bound, Kind, Start, Tunable};
+use nalgebra::Vector6;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
@@ -19,12 +16,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     update: Update::Kalman,
     edits: true,
     tunables: &[LOWEST, MEMBERS, SOJOURN],
-    presets: &[Preset {
-        name: "paper",
-        about: "the constants of docs/laws.md, the same in every mission",
-        other_reading: false,
-        sets: &[],
-    }],
+    presets: &[CONSTANTS],
     search: &[Search {
         tunable: SOJOURN.name,
         low: 1.0,
@@ -80,10 +72,8 @@ impl Imm {
         };
         let mut mixed = Vec::with_capacity(count);
         for to in 0..count {
-            let mut mixture = Mixture::default();
             let into: Vec<f64> = (0..count).map(|i| from(i, to)).collect();
-            self.decades.add_to(&mut mixture, &into);
-            mixed.push((into.iter().sum::<f64>(), mixture.moments()));
+            mixed.push((into.iter().sum::<f64>(), self.decades.mixture(&into).moments()));
         }
         for ((member, weight), (sum, mixture)) in self.decades.members.iter_mut().zip(&mut self.weights).zip(mixed) {
             (member.dx, member.p, *weight) = (mixture.mean, mixture.p, sum);
@@ -91,41 +81,33 @@ impl Imm {
     }
 }
 
-impl Adaptation for Imm {
-    fn acceleration(&self) -> AccelerationModel {
-        AccelerationModel::Absent
+impl Bank for Imm {
+    fn centre(&self) -> &Centre {
+        &self.centre
     }
 
-    fn process_noise(&self, dt: f64) -> TargetMatrix {
-        jerk::white_acceleration(self.centre.density(), dt)
+    fn centre_mut(&mut self) -> &mut Centre {
+        &mut self.centre
     }
 
-    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
-        let shared = self.centre.shared(step);
+    fn take(&mut self, shared: &Shared) {
         if self.centre.said().is_some() {
             self.mix(shared.dt);
         }
         let mut likelihoods = Vec::with_capacity(self.weights.len());
-        self.decades.take(&shared, &mut likelihoods);
-        let most = likelihoods.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        for (weight, log) in self.weights.iter_mut().zip(&likelihoods) {
-            *weight *= (log - most).exp();
-        }
-        let sum: f64 = self.weights.iter().sum();
-        self.weights.iter_mut().for_each(|weight| *weight /= sum);
-        let mut mixture = Mixture::default();
-        self.decades.add_to(&mut mixture, &self.weights);
-        let mixture = mixture.moments();
-        self.decades.shift(&mixture.mean);
-        self.centre.say(&shared, mixture, self.decades.density(&self.weights));
-        Ok(())
+        self.decades.take(shared, &mut likelihoods);
+        reweigh(&mut self.weights, &likelihoods);
     }
 
-    fn replacement(&self) -> Option<&Replacement> {
-        self.centre.said()
+    fn mixture(&self) -> Mixture {
+        self.decades.mixture(&self.weights)
     }
 
-    fn excess(&self, f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
-        self.centre.excess(f)
+    fn density(&self) -> f64 {
+        self.decades.density(&self.weights)
+    }
+
+    fn shift(&mut self, by: &Vector6<f64>) {
+        self.decades.shift(by);
     }
 }

@@ -1,13 +1,10 @@
 //! Multiple-model adaptive estimation over constant white-acceleration densities.
 
-use super::adaptation::{Adaptation, Setup, Step};
-use super::bank::{Centre, Member, Mixture, Replacement, Shared, Weights, white};
+use super::adaptation::Setup;
+use super::bank::{Bank, CONSTANTS, Centre, Member, Mixture, Shared, Weights, white};
 use super::entry::{FilterEntry, Motion, Update};
-use crate::dynamics::AccelerationModel;
 use crate::error::FilterError;
-use crate::jerk;
-use crate::state::TargetMatrix;
-use crate::tunable::{Bound, Kind, Preset, Start, Tunable};
+use crate::tunable::{Bound, Kind, Start, Tunable};
 use nalgebra::{Matrix6, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -18,12 +15,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     update: Update::Kalman,
     edits: true,
     tunables: &[LOWEST, MEMBERS, MEMORY],
-    presets: &[Preset {
-        name: "paper",
-        about: "the constants of docs/laws.md, the same in every mission",
-        other_reading: false,
-        sets: &[],
-    }],
+    presets: &[CONSTANTS],
     search: &[],
 };
 
@@ -108,6 +100,13 @@ impl Decades {
         }
     }
 
+    /// The members alone, with these weights.
+    pub(super) fn mixture(&self, weights: &[f64]) -> Mixture {
+        let mut mixture = Mixture::default();
+        self.add_to(&mut mixture, weights);
+        mixture
+    }
+
     /// Mean density with these weights.
     pub(super) fn density(&self, weights: &[f64]) -> f64 {
         self.densities.iter().zip(weights).map(|(q, w)| q * w).sum()
@@ -142,34 +141,30 @@ impl Mmae {
     }
 }
 
-impl Adaptation for Mmae {
-    fn acceleration(&self) -> AccelerationModel {
-        AccelerationModel::Absent
+impl Bank for Mmae {
+    fn centre(&self) -> &Centre {
+        &self.centre
     }
 
-    fn process_noise(&self, dt: f64) -> TargetMatrix {
-        jerk::white_acceleration(self.centre.density(), dt)
+    fn centre_mut(&mut self) -> &mut Centre {
+        &mut self.centre
     }
 
-    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
-        let shared = self.centre.shared(step);
+    fn take(&mut self, shared: &Shared) {
         let mut likelihoods = Vec::with_capacity(self.decades.members.len());
-        self.decades.take(&shared, &mut likelihoods);
+        self.decades.take(shared, &mut likelihoods);
         self.weights.update(shared.dt, &likelihoods);
-        let weights = self.weights.get();
-        let mut mixture = Mixture::default();
-        self.decades.add_to(&mut mixture, weights);
-        let mixture = mixture.moments();
-        self.decades.shift(&mixture.mean);
-        self.centre.say(&shared, mixture, self.decades.density(weights));
-        Ok(())
     }
 
-    fn replacement(&self) -> Option<&Replacement> {
-        self.centre.said()
+    fn mixture(&self) -> Mixture {
+        self.decades.mixture(self.weights.get())
     }
 
-    fn excess(&self, f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
-        self.centre.excess(f)
+    fn density(&self) -> f64 {
+        self.decades.density(self.weights.get())
+    }
+
+    fn shift(&mut self, by: &Vector6<f64>) {
+        self.decades.shift(by);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::rows::{Row, Seen};
 use nalgebra::{Matrix6, SMatrix, SVector};
+use numerics::spd;
 use serde::{Deserialize, Serialize};
 
 /// A filter by its deviation from the centre: relative position and velocity, and in nine states an acceleration of which the
@@ -40,7 +41,7 @@ impl<const D: usize> Member<D> {
         self.p = f * self.p * f.transpose() + noise;
         let mut own = self.p.fixed_view_mut::<6, 6>(0, 0);
         own += common;
-        self.p = (self.p + self.p.transpose()) * 0.5;
+        self.p = spd::symmetrised(&self.p);
     }
 
     /// Takes one row in.

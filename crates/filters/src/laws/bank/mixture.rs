@@ -3,6 +3,7 @@
 use crate::error::FilterError;
 use crate::state::RowVector;
 use nalgebra::{Matrix6, Vector6};
+use numerics::spd;
 use serde::{Deserialize, Serialize};
 
 /// Relative position and velocity as a law wants them in place of those of the update; internal units.
@@ -67,7 +68,7 @@ impl Mixture {
         p.ger(-1.0, &mean, &mean, 1.0);
         Moments {
             mean,
-            p: (p + p.transpose()) * 0.5,
+            p: spd::symmetrised(&p),
         }
     }
 }

@@ -21,4 +21,78 @@ pub use mixture::Replacement;
 pub(super) use centre::{Centre, Shared, white};
 pub(super) use member::Member;
 pub(super) use mixture::Mixture;
-pub(super) use weights::Weights;
+pub(super) use weights::{Weights, reweigh};
+
+use super::adaptation::{Adaptation, Step};
+use crate::dynamics::AccelerationModel;
+use crate::error::FilterError;
+use crate::jerk;
+use crate::state::TargetMatrix;
+use crate::tunable::Preset;
+use nalgebra::{Matrix6, Vector6};
+
+/// The preset of a bank, whose constants are the same in every mission.
+pub(super) const CONSTANTS: Preset = Preset {
+    name: "paper",
+    about: "the constants of docs/laws.md, the same in every mission",
+    other_reading: false,
+    sets: &[],
+};
+
+/// What makes a law a bank; all else of its [`Adaptation`] follows.
+pub(super) trait Bank {
+    /// The estimator as the members see it.
+    fn centre(&self) -> &Centre;
+
+    /// The same, to be told what stands in its place.
+    fn centre_mut(&mut self) -> &mut Centre;
+
+    /// Every member takes a sample in.
+    fn take(&mut self, shared: &Shared);
+
+    /// All of them together, as deviations from the centre.
+    fn mixture(&self) -> Mixture;
+
+    /// White acceleration density with which they walk together.
+    fn density(&self) -> f64;
+
+    /// Deviations are from another mean now.
+    fn shift(&mut self, by: &Vector6<f64>);
+
+    /// As [`Adaptation::updates`].
+    fn decisions(&self) -> i32 {
+        0
+    }
+}
+
+impl<B: Bank> Adaptation for B {
+    fn acceleration(&self) -> AccelerationModel {
+        AccelerationModel::Absent
+    }
+
+    fn process_noise(&self, dt: f64) -> TargetMatrix {
+        jerk::white_acceleration(self.centre().density(), dt)
+    }
+
+    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
+        let shared = self.centre().shared(step);
+        self.take(&shared);
+        let mixture = self.mixture().moments();
+        self.shift(&mixture.mean);
+        let density = self.density();
+        self.centre_mut().say(&shared, mixture, density);
+        Ok(())
+    }
+
+    fn replacement(&self) -> Option<&Replacement> {
+        self.centre().said()
+    }
+
+    fn excess(&self, f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
+        self.centre().excess(f)
+    }
+
+    fn updates(&self) -> i32 {
+        self.decisions()
+    }
+}

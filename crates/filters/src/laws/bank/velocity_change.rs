@@ -183,8 +183,8 @@ impl VelocityChanges {
         log_likelihood
     }
 
-    /// Mean and covariance of the mixture.
-    pub(in crate::laws) fn moments(&self) -> Moments {
+    /// The quiet filter and every hypothesis, by their weights.
+    pub(in crate::laws) fn mixture(&self) -> Mixture {
         let mut mixture = Mixture::default();
         mixture.add(self.weighed.quiet, &self.quiet.dx, &self.quiet.p);
         for (hypothesis, part) in self.open.iter().zip(&self.weighed.parts) {
@@ -201,7 +201,7 @@ impl VelocityChanges {
                 mixture.add_second(weight, &mean, &second);
             }
         }
-        mixture.moments()
+        mixture
     }
 
     /// Deviations are from another mean now.
@@ -254,7 +254,7 @@ impl VelocityChanges {
 
     /// The mixture takes the place of the quiet filter.
     fn decide(&mut self) {
-        let Moments { mean, p } = self.moments();
+        let Moments { mean, p } = self.mixture().moments();
         let counts: Vec<[f64; 5]> = self.weighed.parts.iter().map(|part| part.weights).collect();
         counts.iter().for_each(|weights| self.count(weights));
         self.quiet = Member { dx: mean, p };

@@ -2,6 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Multiplies weights by likelihoods, and makes them sum to one.
+///
+/// * `log_likelihoods`: one for each weight.
+pub(in crate::laws) fn reweigh(weights: &mut [f64], log_likelihoods: &[f64]) {
+    let most = log_likelihoods.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    for (weight, log) in weights.iter_mut().zip(log_likelihoods) {
+        *weight *= (log - most).exp();
+    }
+    let sum: f64 = weights.iter().sum();
+    weights.iter_mut().for_each(|weight| *weight /= sum);
+}
+
 /// Weights that likelihoods move and that slowly return to what they were.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::laws) struct Weights {
@@ -29,13 +41,10 @@ impl Weights {
     /// * `log_likelihoods`: of the sample, one for each member; all equal when nothing was measured.
     pub(in crate::laws) fn update(&mut self, dt: f64, log_likelihoods: &[f64]) {
         let back = (dt / self.memory).min(1.0);
-        let most = log_likelihoods.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let mut sum = 0.0;
-        for ((now, prior), log) in self.now.iter_mut().zip(&self.prior).zip(log_likelihoods) {
-            *now = (*now + (prior - *now) * back) * (log - most).exp();
-            sum += *now;
+        for (now, prior) in self.now.iter_mut().zip(&self.prior) {
+            *now += (prior - *now) * back;
         }
-        self.now.iter_mut().for_each(|now| *now /= sum);
+        reweigh(&mut self.now, log_likelihoods);
     }
 
     /// The weights, which sum to one.
