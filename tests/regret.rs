@@ -27,6 +27,22 @@ fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
+/// `hybrid` at these levels.
+fn line<'a>(levels: &'a Path, out: &'a Path, runs: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    let line = [
+        "regret",
+        "--levels",
+        text(levels),
+        "--filters",
+        "hybrid",
+        "--runs",
+        runs,
+        "--out",
+        text(out),
+    ];
+    [&line[..], more].concat()
+}
+
 fn number(row: &HashMap<String, String>, column: &str) -> f64 {
     row[column]
         .parse()
@@ -38,24 +54,8 @@ fn laws_are_held_against_the_best_constant_of_each_level() {
     let folder = tempfile::tempdir().unwrap();
     let (levels, out) = (folder.path().join("levels.toml"), folder.path().join("out"));
     std::fs::write(&levels, LEVELS).unwrap();
-    let line = |runs: &'static str, more: &'static [&'static str]| {
-        let line = [
-            "regret",
-            "--levels",
-            text(&levels),
-            "--filters",
-            "hybrid",
-            "--runs",
-            runs,
-            "--scouts",
-            "2",
-            "--seed",
-            "7",
-            "--out",
-            text(&out),
-        ];
-        [&line[..], more].concat()
-    };
+    let line =
+        |runs, more: &[&'static str]| line(&levels, &out, runs, &[&["--scouts", "2", "--seed", "7"], more].concat());
     let table = harness_ok(&line("5", &[]));
     assert!(
         table.contains("hybrid")
@@ -120,18 +120,7 @@ fn mistakes_are_told() {
         ("[[fixed]]", "[[fix]]", "levels.toml"),
     ] {
         std::fs::write(&levels, LEVELS.replace(from, to)).unwrap();
-        let line = [
-            "regret",
-            "--levels",
-            text(&levels),
-            "--filters",
-            "hybrid",
-            "--runs",
-            "5",
-            "--out",
-            text(&out),
-        ];
-        let refused = harness(&line);
+        let refused = harness(&line(&levels, &out, "5", &[]));
         let told = String::from_utf8_lossy(&refused.stderr).into_owned();
         assert!(refused.status.code() == Some(2) && told.contains(says), "{to}: {told}");
     }

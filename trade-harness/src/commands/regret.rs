@@ -3,19 +3,18 @@
 use std::fs;
 
 use serde::{Deserialize, Serialize};
-use serde_json::json;
-use study::{Models, NAV, Participant, Plan, World, check_real_range, rehearse};
+use study::{Models, NAV, Plan, Study, World, check_real_range, rehearse};
 
 use super::out::Out;
 use super::progress::Progress;
 use super::shared::{Verdict, closing, models, note, plan_of};
 use crate::HarnessError;
 use crate::cli::RegretArgs;
-use crate::digest::of_file;
 use crate::format::{json_bytes, wrapped};
 use crate::output::OutputFolder;
 use crate::regret::levels::{Family, Level, Levels, OWN};
 use crate::regret::{LEGEND, Options, Row, Trial, Tried, markdown, render, table, told};
+use crate::store::identity;
 
 /// Laws that are tried unless others are asked for.
 const LAWS: [&str; 7] = [
@@ -33,8 +32,16 @@ const TRIALS: &str = "trials";
 /// A trial that is through, with all that it hangs on.
 #[derive(Serialize, Deserialize)]
 struct Kept {
-    request: serde_json::Value,
+    request: Request,
     tried: Tried,
+}
+
+/// All that decides what a trial finds.
+#[derive(PartialEq, Serialize, Deserialize)]
+struct Request {
+    /// Of the study of all its filters, as that of any other command.
+    identity: String,
+    scouts: u32,
 }
 
 pub(super) fn regret(args: &RegretArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
@@ -97,7 +104,7 @@ pub(super) fn regret(args: &RegretArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
             None => {
                 let tried = case.trial.run(&options, |n| progress.advance(n));
                 let kept = Kept {
-                    request: case.request(&options)?,
+                    request: case.request(&options),
                     tried,
                 };
                 folder.write(&case.file(), &json_bytes(&kept)?)?;
@@ -138,8 +145,8 @@ struct Case {
     world: String,
     level: String,
     trial: Trial,
-    /// All that decides what it finds, but for the number of runs.
-    identity: serde_json::Value,
+    /// As [`Request`] has it.
+    identity: String,
 }
 
 impl Case {
@@ -180,23 +187,19 @@ impl Case {
             });
             fixed.push(members.collect::<Vec<_>>());
         }
-        let fmus = models.all().map(|model| of_file(model.fmu.path()));
-        let fmus: Vec<String> = fmus.collect::<Result<_, _>>()?;
-        let described = |filters: &[Participant]| {
-            let of = filters.iter().map(|f| json!([f.label, f.record]));
-            of.collect::<Vec<_>>()
+        let mut whole = spec.subset(&(0..spec.filters.len()).collect::<Vec<_>>());
+        whole.filters.extend(fixed.iter().flatten().cloned());
+        let study = Study {
+            spec: whole,
+            runs: plan.runs,
+            jobs: plan.threads(),
+            case: level.name.clone(),
         };
-        let identity = json!({
-            "mission": world.mission, "set": level.set, "seed": plan.seed, "duration_s": spec.world.duration_s,
-            "truth": spec.truth.record, "laws": described(&spec.filters),
-            "fixed": fixed.iter().map(|family| described(family)).collect::<Vec<_>>(),
-            "fmus": fmus,
-        });
         Ok(Self {
+            identity: identity(&[study], models)?,
             world: world.name,
             level: level.name.clone(),
             trial: Trial { spec, families: fixed },
-            identity,
         })
     }
 
@@ -204,10 +207,11 @@ impl Case {
         format!("{TRIALS}/{}_{}.json", self.world, self.level)
     }
 
-    fn request(&self, options: &Options) -> Result<serde_json::Value, HarnessError> {
-        let mut request = self.identity.clone();
-        request["runs"] = json!([options.runs, options.scouts]);
-        Ok(request)
+    fn request(&self, options: &Options) -> Request {
+        Request {
+            identity: self.identity.clone(),
+            scouts: options.scouts,
+        }
     }
 
     /// What an earlier command has found of the same.
@@ -223,7 +227,7 @@ impl Case {
             source,
         })?;
         match serde_json::from_str::<Kept>(&text) {
-            Ok(kept) if kept.request == self.request(options)? => Ok(Some(kept.tried)),
+            Ok(kept) if kept.request == self.request(options) => Ok(Some(kept.tried)),
             _ if force => Ok(None),
             _ => Err(HarnessError::OtherRegret { path }),
         }
