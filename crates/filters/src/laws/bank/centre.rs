@@ -32,7 +32,8 @@ pub(in crate::laws) struct Shared {
     pub seen: Seen,
     /// By how much the first pass of the update has moved the centre; what later passes make of nonlinear rows, members share.
     correction: Vector6<f64>,
-    /// Covariance of the centre before the update where there is no earlier step.
+    /// Where there is no earlier step: covariance of the centre before the update, without its own process noise. What is known of
+    /// the start must not be lost to the noise of the largest member.
     first: Option<Matrix6<f64>>,
     /// The estimator's own after the update.
     post: Matrix6<f64>,
@@ -67,7 +68,7 @@ impl Centre {
             common,
             seen,
             correction: step.linear.fixed_rows::<6>(0).into_owned(),
-            first: self.last.is_none().then_some(prior),
+            first: self.last.is_none().then(|| as_covariance(prior - walk)),
             post: six(&step.p_post),
             predicted: predicted(mixture_prior, &seen),
         }
@@ -162,7 +163,7 @@ impl Shared {
         log_likelihood
     }
 
-    /// The time update of a member; at the first sample it takes over the centre's covariance.
+    /// The time update of a member; at the first sample it begins with what the centre began with.
     pub(in crate::laws) fn predict<const D: usize>(
         &self,
         member: &mut Member<D>,
@@ -171,11 +172,11 @@ impl Shared {
         acceleration: f64,
     ) {
         match &self.first {
-            Some(prior) => {
+            Some(first) => {
                 member.dx = SVector::zeros();
                 member.p = SMatrix::zeros();
-                member.p.fixed_view_mut::<6, 6>(0, 0).copy_from(prior);
                 (6..D).for_each(|i| member.p[(i, i)] = acceleration);
+                member.predict(f, noise, first);
             }
             None => member.predict(f, noise, &self.common),
         }
@@ -208,4 +209,42 @@ pub(in crate::laws) fn white(density: f64, dt: f64) -> Matrix6<f64> {
     jerk::white_acceleration(density, dt)
         .fixed_view::<6, 6>(0, 0)
         .into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{SMatrix, Vector3};
+
+    /// A start whose velocity is known to 1e-8, and a bank whose loudest member walks by 0.1: the quiet member must still know it.
+    #[test]
+    fn a_member_begins_with_what_is_known_of_the_start_and_its_own_noise() {
+        let (dt, quiet, loud) = (1.0, 4e-12, 1e-2);
+        let start = Matrix6::from_diagonal(&Vector6::new(9.0, 9.0, 9.0, 1e-16, 1e-16, 1e-16));
+        let mut f = Matrix6::identity();
+        f.fixed_view_mut::<3, 3>(0, 3).fill_diagonal(dt);
+        let mut nine = TargetMatrix::identity();
+        nine.fixed_view_mut::<6, 6>(0, 0).copy_from(&f);
+        let mut step = Step::blank(dt, nine);
+        let prior = f * start * f.transpose() + white(loud, dt);
+        step.p_prior.fixed_view_mut::<6, 6>(0, 0).copy_from(&prior);
+        let shared = Centre::new(RowVector::zeros(), loud).shared(&step);
+        let mut member = Member::<6> {
+            dx: Vector6::zeros(),
+            p: Matrix6::zeros(),
+        };
+        shared.predict(&mut member, &f, &white(quiet, dt), 0.0);
+        let velocity = |p: Matrix6<f64>| p.diagonal().fixed_rows::<3>(3).into_owned();
+        let expected = Vector3::repeat(1e-16 + quiet * dt);
+        // Of 1e-2 the last digit is 2e-18.
+        assert!((velocity(member.p) - expected).amax() < 1e-17, "{}", velocity(member.p));
+        let mut walking = Member::<9> {
+            dx: SVector::zeros(),
+            p: SMatrix::zeros(),
+        };
+        let with = shared.with_acceleration();
+        shared.predict(&mut walking, &with, &SMatrix::zeros(), 1e-6);
+        // The acceleration of the start has acted since then.
+        assert!((walking.p[(3, 3)] - (1e-6 * dt * dt)).abs() < 1e-12, "{}", walking.p);
+    }
 }
