@@ -15,7 +15,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     motion: Motion::OfFrame,
     update: Update::Kalman,
     edits: true,
-    tunables: &[QUIET, RATE],
+    tunables: &[QUIET, RATE, DIRECTIONS, SCHEDULE],
     presets: &[CONSTANTS],
     search: &[
         Search {
@@ -53,6 +53,20 @@ pub(super) const RATE: Tunable = Tunable {
     },
 };
 
+/// Tunable `directions`.
+pub(super) const DIRECTIONS: Tunable = Tunable {
+    name: "directions",
+    about: "whether it learns where changes point, in axes of the line of sight and of the estimate",
+    kind: Kind::Boolean { start: true },
+};
+
+/// Tunable `schedule`.
+pub(super) const SCHEDULE: Tunable = Tunable {
+    name: "schedule",
+    about: "whether it learns when changes come",
+    kind: Kind::Boolean { start: false },
+};
+
 /// The quiet filter and its hypotheses as the tunables say.
 ///
 /// # Errors
@@ -61,6 +75,8 @@ pub(super) fn velocity_changes(setup: &Setup<'_>) -> Result<VelocityChanges, Fil
     let parameters = Parameters {
         quiet: setup.tunables.real(QUIET.name)? * setup.off_nominal.sqrt(),
         rate: setup.tunables.real(RATE.name)?,
+        directions: setup.tunables.boolean(DIRECTIONS.name)?,
+        schedule: setup.tunables.boolean(SCHEDULE.name)?,
     };
     Ok(VelocityChanges::new(&parameters, &setup.units))
 }

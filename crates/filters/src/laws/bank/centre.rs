@@ -18,12 +18,16 @@ pub(in crate::laws) struct Centre {
     last: Option<(Matrix6<f64>, Replacement)>,
     /// White acceleration density with which the estimator walks: that of the mixture.
     density: f64,
+    /// Relative position and velocity of the newest estimate, 6.
+    relative: Vector6<f64>,
 }
 
 /// What all members share of a step.
 pub(in crate::laws) struct Shared {
     /// Time since the last step.
     pub dt: f64,
+    /// Relative position and velocity of the estimate before it, 6.
+    pub relative: Vector6<f64>,
     /// Transition of position and velocity, 6x6.
     pub f: Matrix6<f64>,
     /// What everything but the law's process noise has added to their covariance, 6x6: errors of the chaser, an unsure thrust.
@@ -45,7 +49,12 @@ impl Centre {
     /// * `r`: noise variances of the rows in the places of the layout, internal units.
     /// * `density`: of white acceleration, up to the first sample.
     pub(in crate::laws) fn new(r: RowVector, density: f64) -> Self {
-        Self { r, last: None, density }
+        Self {
+            r,
+            last: None,
+            density,
+            relative: Vector6::zeros(),
+        }
     }
 
     /// What the members need of a step.
@@ -64,6 +73,7 @@ impl Centre {
         let seen = Seen::new(step, &self.r);
         Shared {
             dt: step.dt,
+            relative: self.relative,
             f,
             common,
             seen,
@@ -72,6 +82,11 @@ impl Centre {
             post: six(&step.p_post),
             predicted: predicted(mixture_prior, &seen),
         }
+    }
+
+    /// Takes note of the newest estimate: relative position and velocity, 6.
+    pub(in crate::laws) fn look(&mut self, relative: &Vector6<f64>) {
+        self.relative = *relative;
     }
 
     /// The mixture stands from now on, and walks with this white acceleration density.
@@ -135,6 +150,7 @@ impl Shared {
     pub(super) fn of(dt: f64, f: Matrix6<f64>, seen: Seen) -> Self {
         Self {
             dt,
+            relative: Vector6::new(0.0, 100.0, 0.0, 1.0, 0.0, 0.0),
             f,
             common: Matrix6::zeros(),
             seen,

@@ -74,6 +74,10 @@ impl<B: Bank> Adaptation for B {
         jerk::white_acceleration(self.centre().density(), dt)
     }
 
+    fn look_ahead(&mut self, x: &Vector6<f64>) {
+        self.centre_mut().look(x);
+    }
+
     fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
         let shared = self.centre().shared(step);
         self.take(&shared);

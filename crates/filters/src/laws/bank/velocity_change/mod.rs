@@ -11,18 +11,27 @@
 //! so that given the data D ~ N(V d, V), V = (C + I / c^2)^-1, and its weight against "no change" is
 //! rate_c * slot * exp(d' V d / 2) / sqrt(det(I + c^2 C)). The quiet filter is never run again.
 
+mod directions;
+mod hypothesis;
+mod schedule;
+mod watched;
+
 use super::centre::{Shared, white};
 use super::member::Member;
 use super::mixture::{Mixture, Moments};
 use crate::editing::SETTLING;
 use crate::units::Units;
-use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3, Vector6};
+use directions::{Axes, Directions};
+use hypothesis::{Hypothesis, Posterior, Prior, SIZES};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use schedule::Schedule;
 use serde::{Deserialize, Serialize};
+use watched::{Watched, found};
 
 /// Sizes of a change, m/s.
-pub(in crate::laws) const SIZES: [f64; 5] = [1e-4, 1e-3, 1e-2, 1e-1, 1.0];
+const CHANGES: [f64; SIZES] = [1e-4, 1e-3, 1e-2, 1e-1, 1.0];
 /// Changes of each size that are expected in [`PRIOR_TIME`] before any has been seen.
-const PRIOR_COUNT: [f64; 5] = [0.3, 0.06, 0.012, 0.0024, 0.00048];
+const PRIOR_COUNT: [f64; SIZES] = [0.3, 0.06, 0.012, 0.0024, 0.00048];
 /// s.
 const PRIOR_TIME: f64 = 600.0;
 /// Ages at which hypotheses are thinned, and the distance that they then keep, s.
@@ -33,6 +42,8 @@ const OLDEST: f64 = 320.0;
 const DECIDED: f64 = 0.02;
 /// Weights below this share of the largest count for nothing.
 const NEGLIGIBLE: f64 = 1e-9;
+/// Nothing is learnt of when and where to from a change less probable than this.
+const CERTAIN: f64 = 0.2;
 
 /// What a user may set; SI.
 #[derive(Clone, Copy, Debug)]
@@ -41,20 +52,31 @@ pub(in crate::laws) struct Parameters {
     pub quiet: f64,
     /// Factor on the rates at which changes are expected.
     pub rate: f64,
+    /// Whether it learns where to.
+    pub directions: bool,
+    /// Whether it learns when.
+    pub schedule: bool,
 }
 
 /// The quiet filter and its hypotheses; internal units.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::laws) struct VelocityChanges {
     second: f64,
-    sizes: [f64; 5],
+    /// Unit of velocity, m/s.
+    speed: f64,
+    sizes: [f64; SIZES],
     density: f64,
-    prior: [f64; 5],
+    prior: [f64; SIZES],
     quiet: Member<6>,
     /// The oldest first.
     open: Vec<Hypothesis>,
     /// Changes that have been found, by size.
-    found: [f64; 5],
+    found: [f64; SIZES],
+    /// Where they pointed, and when they came; `None` where that is not to be learnt.
+    directions: Option<Directions>,
+    schedule: Option<Schedule>,
+    /// The last that was decided upon, while it tells where it pointed.
+    watched: Option<Watched>,
     /// Time since the first sample, s.
     elapsed: f64,
     /// Time since the last was opened, s.
@@ -62,34 +84,6 @@ pub(in crate::laws) struct VelocityChanges {
     decisions: i32,
     /// Weights, means and second moments of the hypotheses; of the newest sample.
     weighed: Weighed,
-}
-
-#[derive(Clone, Debug, Serialize, Deserialize)]
-struct Hypothesis {
-    /// E, 6x3.
-    e: Matrix6x3<f64>,
-    /// C, 3x3, and d.
-    c: Matrix3<f64>,
-    d: Vector3<f64>,
-    /// s.
-    age: f64,
-    /// Time from the start to its own, in units of the closest spacing.
-    slot: u64,
-    /// Time to the next one opened, s.
-    span: f64,
-    /// What the data say for each size, as [`Hypothesis::given`] has it.
-    ln_data: [f64; 5],
-}
-
-/// A change of one size, given the data.
-#[derive(Clone, Copy, Debug)]
-struct Posterior {
-    /// Logarithm of the likelihood against "no change".
-    ln_likelihood: f64,
-    /// V d.
-    mean: Vector3<f64>,
-    /// V, 3x3.
-    v: Matrix3<f64>,
 }
 
 /// Every hypothesis against "no change", whose weight is 1.
@@ -103,11 +97,11 @@ struct Weighed {
     parts: Vec<Part>,
 }
 
-/// All sizes of one hypothesis.
+/// All that one hypothesis stands for.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Part {
     /// Weights by size, of all.
-    weights: [f64; 5],
+    weights: [f64; SIZES],
     /// Weighted sum of D.
     first: Vector3<f64>,
     /// Weighted sum of V + D D'.
@@ -119,7 +113,8 @@ impl VelocityChanges {
         let unit = units.velocity() / units.time.sqrt();
         Self {
             second: 1.0 / units.time,
-            sizes: SIZES.map(|c| c / units.velocity()),
+            speed: units.velocity(),
+            sizes: CHANGES.map(|c| c / units.velocity()),
             density: (parameters.quiet / unit).powi(2),
             prior: PRIOR_COUNT.map(|n| n * parameters.rate),
             quiet: Member {
@@ -127,7 +122,10 @@ impl VelocityChanges {
                 p: Matrix6::zeros(),
             },
             open: Vec::new(),
-            found: [0.0; 5],
+            found: [0.0; SIZES],
+            directions: parameters.directions.then(Directions::default),
+            schedule: parameters.schedule.then(Schedule::default),
+            watched: None,
             elapsed: 0.0,
             since: f64::INFINITY,
             decisions: 0,
@@ -155,10 +153,10 @@ impl VelocityChanges {
         let dt = shared.dt / self.second;
         self.elapsed += dt;
         self.since += dt;
-        for hypothesis in &mut self.open {
-            hypothesis.age += dt;
-            hypothesis.e = shared.f * hypothesis.e;
-        }
+        self.watch(shared, dt);
+        self.open
+            .iter_mut()
+            .for_each(|hypothesis| hypothesis.predict(dt, &shared.f));
         shared.predict(&mut self.quiet, &shared.f, &white(self.density, shared.dt), 0.0);
         self.thin();
         let before = self.ln_total();
@@ -166,12 +164,7 @@ impl VelocityChanges {
         for row in shared.seen.iter() {
             let taken = self.quiet.take(row);
             log_likelihood += taken.log_likelihood();
-            for hypothesis in &mut self.open {
-                let g = (row.h * hypothesis.e).transpose();
-                hypothesis.c.ger(1.0 / taken.s, &g, &g, 1.0);
-                hypothesis.d.axpy(taken.innovation / taken.s, &g, 1.0);
-                hypothesis.e.ger(-1.0, &taken.gain, &g, 1.0);
-            }
+            self.open.iter_mut().for_each(|hypothesis| hypothesis.take(row, &taken));
         }
         shared.follow(&mut self.quiet);
         self.weigh();
@@ -179,7 +172,7 @@ impl VelocityChanges {
         if self.weighed.quiet < DECIDED {
             self.decide();
         }
-        self.open_next();
+        self.open_next(&shared.relative);
         log_likelihood
     }
 
@@ -188,7 +181,7 @@ impl VelocityChanges {
         let mut mixture = Mixture::default();
         mixture.add(self.weighed.quiet, &self.quiet.dx, &self.quiet.p);
         for (hypothesis, part) in self.open.iter().zip(&self.weighed.parts) {
-            let weight: f64 = part.weights.iter().sum();
+            let weight = part.weight();
             if weight > NEGLIGIBLE {
                 let off = hypothesis.e * part.first / weight;
                 let mean = self.quiet.dx + off;
@@ -207,41 +200,44 @@ impl VelocityChanges {
     /// Deviations are from another mean now.
     pub(in crate::laws) fn shift(&mut self, shift: &Vector6<f64>) {
         self.quiet.dx -= shift;
-    }
-
-    /// Logarithms of the rates at which changes of each size are expected, 1/s.
-    fn ln_rates(&self) -> [f64; 5] {
-        std::array::from_fn(|i| ((self.prior[i] + self.found[i]) / (PRIOR_TIME + self.elapsed)).ln())
+        self.watched.iter_mut().for_each(|watched| watched.shift(shift));
     }
 
     /// Logarithm of the sum of all weights, "no change" being 1, with what the data have said so far.
     fn ln_total(&self) -> f64 {
-        let rates = self.ln_rates();
         let weights = self.open.iter().map(|hypothesis| {
             let ln_slot = hypothesis.ln_slot();
-            let of_size = |i: usize| (rates[i] + ln_slot + hypothesis.ln_data[i]).exp();
-            (0..5).map(of_size).sum::<f64>()
+            let of_prior = |(prior, ln_data): (&Prior, &f64)| (prior.ln_rate + ln_slot + ln_data).exp();
+            hypothesis
+                .priors
+                .iter()
+                .zip(&hypothesis.ln_data)
+                .map(of_prior)
+                .sum::<f64>()
         });
         (1.0 + weights.sum::<f64>()).ln()
     }
 
     /// What the data now say of every hypothesis.
     fn weigh(&mut self) {
-        let rates = self.ln_rates();
-        let posteriors: Vec<[Posterior; 5]> = self.open.iter().map(|h| self.sizes.map(|c| h.given(c))).collect();
-        for (hypothesis, of_size) in self.open.iter_mut().zip(&posteriors) {
-            hypothesis.ln_data = std::array::from_fn(|i| of_size[i].ln_likelihood);
+        let mut posteriors = Vec::with_capacity(self.open.len());
+        for hypothesis in &mut self.open {
+            let given: Vec<Posterior> = hypothesis.priors.iter().map(|prior| hypothesis.given(prior)).collect();
+            for (ln_data, posterior) in hypothesis.ln_data.iter_mut().zip(&given) {
+                *ln_data = posterior.ln_likelihood;
+            }
+            posteriors.push(given);
         }
         let ln_total = self.ln_total();
         self.weighed.ln_total = ln_total;
         self.weighed.quiet = (-ln_total).exp();
         self.weighed.parts.clear();
-        for (hypothesis, of_size) in self.open.iter().zip(&posteriors) {
+        for (hypothesis, given) in self.open.iter().zip(&posteriors) {
             let ln_slot = hypothesis.ln_slot();
             let mut part = Part::default();
-            for (i, posterior) in of_size.iter().enumerate() {
-                let weight = (rates[i] + ln_slot + posterior.ln_likelihood - ln_total).exp();
-                part.weights[i] = weight;
+            for (prior, posterior) in hypothesis.priors.iter().zip(given) {
+                let weight = (prior.ln_rate + ln_slot + posterior.ln_likelihood - ln_total).exp();
+                part.weights[prior.size] += weight;
                 if weight > NEGLIGIBLE {
                     part.first += posterior.mean * weight;
                     part.second += posterior.v * weight;
@@ -255,10 +251,27 @@ impl VelocityChanges {
     /// The mixture takes the place of the quiet filter.
     fn decide(&mut self) {
         let Moments { mean, p } = self.mixture().moments();
-        let counts: Vec<[f64; 5]> = self.weighed.parts.iter().map(|part| part.weights).collect();
-        counts.iter().for_each(|weights| self.count(weights));
+        self.remember_watched();
+        let parts = std::mem::take(&mut self.weighed.parts);
+        let mut open = std::mem::take(&mut self.open);
+        self.remember_time(&open, &parts);
+        let mut weights = [0.0; SIZES];
+        for part in &parts {
+            weights
+                .iter_mut()
+                .zip(&part.weights)
+                .for_each(|(sum, weight)| *sum += weight);
+        }
+        self.count(&weights);
+        let likeliest = (0..parts.len()).max_by(|a, b| parts[*a].weight().total_cmp(&parts[*b].weight()));
+        if let Some(place) = likeliest.filter(|_| self.directions.is_some()) {
+            self.watched = Some(Watched {
+                without: self.quiet.clone(),
+                hypothesis: open.swap_remove(place),
+                weights,
+            });
+        }
         self.quiet = Member { dx: mean, p };
-        self.open.clear();
         self.weighed = Weighed {
             quiet: 1.0,
             ..Weighed::default()
@@ -266,7 +279,39 @@ impl VelocityChanges {
         self.decisions += 1;
     }
 
-    fn count(&mut self, weights: &[f64; 5]) {
+    /// The change last decided upon, a sample further.
+    fn watch(&mut self, shared: &Shared, dt: f64) {
+        if let Some(watched) = &mut self.watched {
+            watched.take(shared, dt, self.density);
+            if watched.hypothesis.age > OLDEST {
+                self.remember_watched();
+            }
+        }
+    }
+
+    /// Learns where the change pointed that was watched.
+    fn remember_watched(&mut self) {
+        if let (Some(watched), Some(directions)) = (self.watched.take(), &mut self.directions) {
+            directions.learn(&watched.found());
+        }
+    }
+
+    /// Learns when a change came of which these hypotheses speak.
+    fn remember_time(&mut self, hypotheses: &[Hypothesis], parts: &[Part]) {
+        let Some(schedule) = &mut self.schedule else { return };
+        let all: f64 = parts.iter().map(Part::weight).sum();
+        let (mut age, mut square) = (0.0, 0.0);
+        for (hypothesis, part) in hypotheses.iter().zip(parts) {
+            let (share, slot) = (part.weight() / all, hypothesis.span.max(spacing(hypothesis.age)));
+            age += share * hypothesis.age;
+            square += share * (hypothesis.age.powi(2) + slot * slot / 12.0);
+        }
+        if all > CERTAIN {
+            schedule.learn(self.elapsed - age, (square - age * age).max(0.0), all.min(1.0));
+        }
+    }
+
+    fn count(&mut self, weights: &[f64; SIZES]) {
         for (found, weight) in self.found.iter_mut().zip(weights) {
             *found += weight;
         }
@@ -280,9 +325,17 @@ impl VelocityChanges {
             self.fold_oldest();
         }
         let first = spacing(0.0);
-        self.open.retain(|hypothesis| {
+        let mut due = 0.0;
+        self.open.retain_mut(|hypothesis| {
             let every = (spacing(hypothesis.age) / first).round().max(1.0) as u64;
-            hypothesis.slot.is_multiple_of(every)
+            let stays = hypothesis.slot.is_multiple_of(every);
+            // What was due at one that goes is due at the next.
+            if stays {
+                hypothesis.due += std::mem::take(&mut due);
+            } else {
+                due += hypothesis.due;
+            }
+            stays
         });
     }
 
@@ -293,7 +346,13 @@ impl VelocityChanges {
             return;
         }
         let part = self.weighed.parts.remove(0);
-        let weight: f64 = part.weights.iter().sum();
+        let weight = part.weight();
+        if weight > CERTAIN {
+            self.remember_time(std::slice::from_ref(&oldest), std::slice::from_ref(&part));
+            if let Some(directions) = &mut self.directions {
+                directions.learn(&found(&oldest, &part.weights));
+            }
+        }
         if weight > NEGLIGIBLE {
             self.count(&part.weights);
             let share = weight / (weight + self.weighed.quiet);
@@ -304,7 +363,10 @@ impl VelocityChanges {
         }
     }
 
-    fn open_next(&mut self) {
+    /// Opens a hypothesis when it is time to.
+    ///
+    /// * `relative`: position and velocity of the estimate, 6.
+    fn open_next(&mut self, relative: &Vector6<f64>) {
         // What the first estimate leaves would be taken for changes, and their rates be learnt from it.
         if self.elapsed < SETTLING || self.since < spacing(0.0) - 1e-9 {
             return;
@@ -312,54 +374,34 @@ impl VelocityChanges {
         if let Some(last) = self.open.last_mut() {
             last.span = self.since;
         }
-        let mut e = Matrix6x3::zeros();
-        e.fixed_view_mut::<3, 3>(3, 0).fill_with_identity();
-        self.open.push(Hypothesis {
-            e,
-            c: Matrix3::zeros(),
-            d: Vector3::zeros(),
-            age: 0.0,
-            slot: (self.elapsed / spacing(0.0)).round() as u64,
-            span: 0.0,
-            ln_data: [0.0; 5],
-        });
+        let per_found = 1.0 / (PRIOR_TIME + self.elapsed);
+        let rates: [f64; SIZES] = std::array::from_fn(|i| (self.prior[i] + self.found[i]) * per_found);
+        let axes = Axes::of(relative, self.speed);
+        let priors = match &self.directions {
+            Some(directions) => directions.priors(&axes, &self.sizes, &rates, per_found),
+            None => Directions::default().priors(&axes, &self.sizes, &rates, per_found),
+        };
+        let schedule = self.schedule.as_ref();
+        let expected = schedule.map_or(0.0, |schedule| schedule.expected(self.elapsed, spacing(0.0), OLDEST));
+        let due = expected / rates.iter().sum::<f64>();
+        let slot = (self.elapsed / spacing(0.0)).round() as u64;
+        self.open.push(Hypothesis::new(slot, due, priors, axes));
         self.weighed.parts.push(Part::default());
         self.since = 0.0;
+    }
+}
+
+impl Part {
+    fn weight(&self) -> f64 {
+        self.weights.iter().sum()
     }
 }
 
 impl Hypothesis {
     /// Logarithm of the time for which it stands, s.
     fn ln_slot(&self) -> f64 {
-        spacing(self.age).max(self.span).min(self.age).ln()
+        (spacing(self.age).max(self.span).min(self.age) + self.due).ln()
     }
-
-    /// A change of this size, given the data.
-    fn given(&self, size: f64) -> Posterior {
-        let precision = self.c + Matrix3::from_diagonal_element(1.0 / (size * size));
-        // By cofactors, which give inverse and determinant at once; the sum of a covariance and a multiple of I is far from singular.
-        let m = |i: usize, j: usize| precision[(i, j)];
-        let cofactor = |i: usize, j: usize| {
-            let ([a, b], [c, d]) = (others(i), others(j));
-            m(a, c) * m(b, d) - m(a, d) * m(b, c)
-        };
-        let cofactors = Matrix3::from_fn(cofactor);
-        let det = precision.row(0).dot(&cofactors.row(0));
-        let v = cofactors / det;
-        let mean = v * self.d;
-        // det(I + c^2 C) = c^6 det(C + I / c^2).
-        let ln_det = (det * size.powi(6)).ln();
-        Posterior {
-            ln_likelihood: 0.5 * (self.d.dot(&mean) - ln_det),
-            mean,
-            v,
-        }
-    }
-}
-
-/// The other two of three places, in the order that makes cofactors of them.
-fn others(place: usize) -> [usize; 2] {
-    [(place + 1) % 3, (place + 2) % 3]
 }
 
 /// How far apart hypotheses of this age stand, s.
@@ -380,7 +422,15 @@ mod tests {
     fn changes() -> VelocityChanges {
         let told = interface::mission::embedded("leo_venting").unwrap().mission().unwrap();
         let units: Told = told.navigation().units;
-        let mut changes = VelocityChanges::new(&Parameters { quiet: 1e-3, rate: 1.0 }, &Units::of(&units));
+        let mut changes = VelocityChanges::new(
+            &Parameters {
+                quiet: 1e-3,
+                rate: 1.0,
+                directions: true,
+                schedule: true,
+            },
+            &Units::of(&units),
+        );
         changes.elapsed = SETTLING;
         for i in 0..6 {
             changes.quiet.p[(i, i)] = if i < 3 { 1.0 } else { 1e-4 };
@@ -407,36 +457,82 @@ mod tests {
         Shared::of(1.0, f, Seen::of(&rows))
     }
 
-    /// A hypothesis against a filter that is really run with it: at t_j its velocity becomes unsure by c, and from there on mean,
+    /// A hypothesis against a filter that is really run with it: at t_j its velocity becomes unsure by S, and from there on mean,
     /// covariance and likelihood of every sample are its own.
     #[test]
     fn a_hypothesis_is_the_filter_that_was_never_run() {
-        let g = &mut stream(5, 0, Source::Lidar);
-        let mut changes = changes();
-        changes.take(&step(g));
-        // The first sample opens a hypothesis.
-        assert_eq!(changes.open.len(), 1);
-        let size = changes.sizes[2];
-        let mut run = changes.quiet.clone();
-        (3..6).for_each(|i| run.p[(i, i)] += size * size);
-        let (mut quiet, mut of_quiet, mut of_run) = (changes.quiet.clone(), 0.0, 0.0);
-        for _ in 0..25 {
-            let shared = step(g);
-            let noise = white(changes.density, 1.0);
-            of_quiet += shared.take(&mut quiet, &shared.f, &noise, 0.0);
-            of_run += shared.take(&mut run, &shared.f, &noise, 0.0);
-            changes.take(&shared);
-            assert_eq!(changes.decisions(), 0);
+        let size = changes().sizes[2];
+        let along = Vector3::new(0.6, 0.0, -0.8);
+        let axis = along * along.transpose();
+        let narrow = (axis + (Matrix3::identity() - axis) * 0.01) * (size * size);
+        for (prior, unsure) in [
+            (
+                Prior::anywhere(2, size, 1.0),
+                Matrix3::from_diagonal_element(size * size),
+            ),
+            (Prior::along(2, size, 1.0, &along, 0.1), narrow),
+        ] {
+            let g = &mut stream(5, 0, Source::Lidar);
+            let mut changes = changes();
+            changes.take(&step(g));
+            // The first sample opens a hypothesis.
+            assert_eq!(changes.open.len(), 1);
+            let mut run = changes.quiet.clone();
+            let mut velocity = run.p.fixed_view_mut::<3, 3>(3, 3);
+            velocity += unsure;
+            let (mut quiet, mut of_quiet, mut of_run) = (changes.quiet.clone(), 0.0, 0.0);
+            for _ in 0..25 {
+                let shared = step(g);
+                let noise = white(changes.density, 1.0);
+                of_quiet += shared.take(&mut quiet, &shared.f, &noise, 0.0);
+                of_run += shared.take(&mut run, &shared.f, &noise, 0.0);
+                changes.take(&shared);
+                assert_eq!(changes.decisions(), 0);
+            }
+            assert!((changes.quiet.dx - quiet.dx).amax() < 1e-12);
+            let hypothesis = &changes.open[0];
+            let Posterior { ln_likelihood, mean, v } = hypothesis.given(&prior);
+            let off = hypothesis.e * mean;
+            let covariance = quiet.p + hypothesis.e * v * hypothesis.e.transpose();
+            assert!(off.amax() > 1e-5, "there is something to compare");
+            assert!((quiet.dx + off - run.dx).amax() < 1e-10);
+            assert!((covariance - run.p).amax() < 1e-10);
+            assert!((ln_likelihood - (of_run - of_quiet)).abs() < 1e-9);
         }
-        assert!((changes.quiet.dx - quiet.dx).amax() < 1e-12);
-        let hypothesis = &changes.open[0];
-        let Posterior { ln_likelihood, mean, v } = hypothesis.given(size);
-        let off = hypothesis.e * mean;
-        let covariance = quiet.p + hypothesis.e * v * hypothesis.e.transpose();
-        assert!(off.amax() > 1e-4, "there is something to compare");
-        assert!((quiet.dx + off - run.dx).amax() < 1e-10);
-        assert!((covariance - run.p).amax() < 1e-10);
-        assert!((ln_likelihood - (of_run - of_quiet)).abs() < 1e-9);
+    }
+
+    /// What a decision has taken in is still told by the data alone: as by the hypothesis of a twin that decides nothing.
+    #[test]
+    fn a_change_is_watched_as_if_nothing_had_been_decided() {
+        let g = &mut stream(7, 0, Source::Lidar);
+        let mut changes = changes();
+        (0..12).for_each(|_| {
+            changes.take(&step(g));
+        });
+        let mut open = changes.clone();
+        changes.decide();
+        let slot = changes.watched.as_ref().unwrap().hypothesis.slot;
+        let place = open.open.iter().position(|h| h.slot == slot).unwrap();
+        let mut hypothesis = open.open.swap_remove(place);
+        for _ in 0..20 {
+            let shared = step(g);
+            changes.take(&shared);
+            // Nothing moves the deviation of either, so both may take the same step.
+            hypothesis.predict(1.0, &shared.f);
+            shared.predict(&mut open.quiet, &shared.f, &white(open.density, 1.0), 0.0);
+            for row in shared.seen.iter() {
+                let taken = open.quiet.take(row);
+                hypothesis.take(row, &taken);
+            }
+            assert_eq!(changes.decisions(), 1);
+        }
+        let prior = Prior::anywhere(1, open.sizes[1], 1.0);
+        let expected = hypothesis.given(&prior);
+        let mut watched = changes.watched.unwrap();
+        watched.weights = [0.0, 1.0, 0.0, 0.0, 0.0];
+        let found = watched.found();
+        assert!((found.d - expected.mean).amax() < 1e-12 * expected.mean.amax());
+        assert!((found.v - expected.v).amax() < 1e-12 * expected.v.amax());
     }
 
     /// After an hour of samples without news there are no more hypotheses than the spacings allow, and they stand as these say.
