@@ -263,12 +263,12 @@ mod tests {
             assert_eq!(priors.len(), SIZES + 1);
             for (place, rate) in rates.iter().enumerate() {
                 let of_size = priors.iter().filter(|prior| prior.size == place);
-                let sum: f64 = of_size.map(|prior| prior.ln_rate.exp()).sum();
+                let sum: f64 = of_size.map(|prior| prior.rate).sum();
                 assert!((sum - rate).abs() < 1e-9 * rate, "{sum} {rate}");
             }
             let along = priors.iter().find(|prior| !prior.anywhere).unwrap();
             let expected = (4.0 / (4.0 + NEW) * 4.0 * per_found).min(rates[1]);
-            assert!((along.ln_rate.exp() - expected).abs() < 1e-9 * expected);
+            assert!((along.rate - expected).abs() < 1e-9 * expected);
         }
     }
 

@@ -6,6 +6,8 @@ use super::directions::Axes;
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 use serde::{Deserialize, Serialize};
 
+/// Weights below this share of the largest count for nothing.
+pub(super) const NEGLIGIBLE: f64 = 1e-9;
 /// Number of sizes.
 pub(super) const SIZES: usize = 5;
 
@@ -16,12 +18,12 @@ pub(super) struct Prior {
     pub size: usize,
     /// Whether it may point anywhere.
     pub anywhere: bool,
-    /// Logarithm of its rate, 1/s.
-    pub ln_rate: f64,
+    /// Its rate, 1/s.
+    pub rate: f64,
     /// S^-1, 3x3, internal units.
     precision: Matrix3<f64>,
-    /// ln det S.
-    ln_det: f64,
+    /// det S.
+    det: f64,
 }
 
 impl Prior {
@@ -30,9 +32,9 @@ impl Prior {
         Self {
             size,
             anywhere: true,
-            ln_rate: rate.max(f64::MIN_POSITIVE).ln(),
+            rate,
             precision: Matrix3::from_diagonal_element(1.0 / (c * c)),
-            ln_det: 6.0 * c.ln(),
+            det: c.powi(6),
         }
     }
 
@@ -43,9 +45,9 @@ impl Prior {
         Self {
             size,
             anywhere: false,
-            ln_rate: rate.max(f64::MIN_POSITIVE).ln(),
+            rate,
             precision: (axis + across) / (c * c),
-            ln_det: 6.0 * c.ln() + 4.0 * spread.ln(),
+            det: c.powi(6) * spread.powi(4),
         }
     }
 }
@@ -53,8 +55,10 @@ impl Prior {
 /// A change, given the data.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Posterior {
-    /// Logarithm of the likelihood against "no change".
-    pub ln_likelihood: f64,
+    /// d' V d / 2.
+    pub exponent: f64,
+    /// det(I + S C): the likelihood against "no change" is exp(d' V d / 2) over the root of it.
+    pub det: f64,
     /// V d.
     pub mean: Vector3<f64>,
     /// V, 3x3.
@@ -80,10 +84,35 @@ pub(super) struct Hypothesis {
     pub due: f64,
     /// What was expected.
     pub priors: Vec<Prior>,
-    /// What the data say of each, as [`Hypothesis::given`] has it.
-    pub ln_data: Vec<f64>,
+    /// Logarithm of the sum of rates times likelihoods, of the newest sample, 1/s.
+    pub ln_mass: f64,
     /// Axes at its time.
     pub axes: Axes,
+}
+
+/// A change whatever its prior: all of a hypothesis, by weight.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Part {
+    /// Weights by size.
+    pub weights: [f64; SIZES],
+    /// Weighted sum of D, 3.
+    pub first: Vector3<f64>,
+    /// Weighted sum of V + D D', 3x3.
+    pub second: Matrix3<f64>,
+}
+
+impl Part {
+    /// Sum of the weights.
+    pub(super) fn weight(&self) -> f64 {
+        self.weights.iter().sum()
+    }
+
+    /// Every weight times a factor.
+    pub(super) fn scale(&mut self, by: f64) {
+        self.weights.iter_mut().for_each(|weight| *weight *= by);
+        self.first *= by;
+        self.second *= by;
+    }
 }
 
 impl Hypothesis {
@@ -98,7 +127,7 @@ impl Hypothesis {
             slot,
             span: 0.0,
             due,
-            ln_data: vec![0.0; priors.len()],
+            ln_mass: priors.iter().map(|prior| prior.rate).sum::<f64>().ln(),
             priors,
             axes,
         }
@@ -118,6 +147,30 @@ impl Hypothesis {
         self.e.ger(-1.0, &taken.gain, &g, 1.0);
     }
 
+    /// All priors together, given the data; their mass is noted.
+    pub(super) fn weigh(&mut self) -> Part {
+        let (mut top, mut sum, mut part) = (f64::NEG_INFINITY, 0.0, Part::default());
+        for prior in &self.priors {
+            let posterior = self.given(prior);
+            if posterior.exponent > top {
+                let less = (top - posterior.exponent).exp();
+                (top, sum) = (posterior.exponent, sum * less);
+                part.scale(less);
+            }
+            let mass = prior.rate * (posterior.exponent - top).exp() / posterior.det.sqrt();
+            sum += mass;
+            if mass > NEGLIGIBLE * sum {
+                part.weights[prior.size] += mass;
+                part.first.axpy(mass, &posterior.mean, 1.0);
+                part.second += posterior.v * mass;
+                part.second.ger(mass, &posterior.mean, &posterior.mean, 1.0);
+            }
+        }
+        self.ln_mass = top + sum.ln();
+        part.scale(1.0 / sum);
+        part
+    }
+
     /// A change as this prior has it, given the data.
     pub(super) fn given(&self, prior: &Prior) -> Posterior {
         let precision = self.c + prior.precision;
@@ -131,9 +184,9 @@ impl Hypothesis {
         let det = precision.row(0).dot(&cofactors.row(0));
         let v = cofactors / det;
         let mean = v * self.d;
-        // det(I + S C) = det S det(C + S^-1).
         Posterior {
-            ln_likelihood: 0.5 * (self.d.dot(&mean) - det.ln() - prior.ln_det),
+            exponent: 0.5 * self.d.dot(&mean),
+            det: det * prior.det,
             mean,
             v,
         }

@@ -22,8 +22,8 @@ use super::mixture::{Mixture, Moments};
 use crate::editing::SETTLING;
 use crate::units::Units;
 use directions::{Axes, Directions};
-use hypothesis::{Hypothesis, Posterior, Prior, SIZES};
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use hypothesis::{Hypothesis, NEGLIGIBLE, Part, SIZES};
+use nalgebra::{Matrix6, Vector6};
 use schedule::Schedule;
 use serde::{Deserialize, Serialize};
 use watched::{Watched, found};
@@ -40,8 +40,6 @@ const THINNED: [(f64, f64); 3] = [(0.0, 5.0), (30.0, 10.0), (80.0, 40.0)];
 const OLDEST: f64 = 320.0;
 /// Weight of "no change" below which the mixture takes the place of the quiet filter.
 const DECIDED: f64 = 0.02;
-/// Weights below this share of the largest count for nothing.
-const NEGLIGIBLE: f64 = 1e-9;
 /// Nothing is learnt of when and where to from a change less probable than this.
 const CERTAIN: f64 = 0.2;
 
@@ -95,17 +93,6 @@ struct Weighed {
     quiet: f64,
     /// One for each hypothesis.
     parts: Vec<Part>,
-}
-
-/// All that one hypothesis stands for.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-struct Part {
-    /// Weights by size, of all.
-    weights: [f64; SIZES],
-    /// Weighted sum of D.
-    first: Vector3<f64>,
-    /// Weighted sum of V + D D'.
-    second: Matrix3<f64>,
 }
 
 impl VelocityChanges {
@@ -205,46 +192,22 @@ impl VelocityChanges {
 
     /// Logarithm of the sum of all weights, "no change" being 1, with what the data have said so far.
     fn ln_total(&self) -> f64 {
-        let weights = self.open.iter().map(|hypothesis| {
-            let ln_slot = hypothesis.ln_slot();
-            let of_prior = |(prior, ln_data): (&Prior, &f64)| (prior.ln_rate + ln_slot + ln_data).exp();
-            hypothesis
-                .priors
-                .iter()
-                .zip(&hypothesis.ln_data)
-                .map(of_prior)
-                .sum::<f64>()
-        });
-        (1.0 + weights.sum::<f64>()).ln()
+        let of = |hypothesis: &Hypothesis| hypothesis.ln_slot() + hypothesis.ln_mass;
+        let most = self.open.iter().map(of).fold(0.0, f64::max);
+        let sum: f64 = self.open.iter().map(|hypothesis| (of(hypothesis) - most).exp()).sum();
+        most + ((-most).exp() + sum).ln()
     }
 
     /// What the data now say of every hypothesis.
     fn weigh(&mut self) {
-        let mut posteriors = Vec::with_capacity(self.open.len());
-        for hypothesis in &mut self.open {
-            let given: Vec<Posterior> = hypothesis.priors.iter().map(|prior| hypothesis.given(prior)).collect();
-            for (ln_data, posterior) in hypothesis.ln_data.iter_mut().zip(&given) {
-                *ln_data = posterior.ln_likelihood;
-            }
-            posteriors.push(given);
-        }
+        self.weighed.parts.clear();
+        let parts = self.open.iter_mut().map(Hypothesis::weigh);
+        self.weighed.parts.extend(parts);
         let ln_total = self.ln_total();
         self.weighed.ln_total = ln_total;
         self.weighed.quiet = (-ln_total).exp();
-        self.weighed.parts.clear();
-        for (hypothesis, given) in self.open.iter().zip(&posteriors) {
-            let ln_slot = hypothesis.ln_slot();
-            let mut part = Part::default();
-            for (prior, posterior) in hypothesis.priors.iter().zip(given) {
-                let weight = (prior.ln_rate + ln_slot + posterior.ln_likelihood - ln_total).exp();
-                part.weights[prior.size] += weight;
-                if weight > NEGLIGIBLE {
-                    part.first += posterior.mean * weight;
-                    part.second += posterior.v * weight;
-                    part.second.ger(weight, &posterior.mean, &posterior.mean, 1.0);
-                }
-            }
-            self.weighed.parts.push(part);
+        for (part, hypothesis) in self.weighed.parts.iter_mut().zip(&self.open) {
+            part.scale((hypothesis.ln_slot() + hypothesis.ln_mass - ln_total).exp());
         }
     }
 
@@ -391,12 +354,6 @@ impl VelocityChanges {
     }
 }
 
-impl Part {
-    fn weight(&self) -> f64 {
-        self.weights.iter().sum()
-    }
-}
-
 impl Hypothesis {
     /// Logarithm of the time for which it stands, s.
     fn ln_slot(&self) -> f64 {
@@ -413,9 +370,10 @@ fn spacing(age: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::rows::{Row, Seen};
+    use super::hypothesis::{Posterior, Prior};
     use super::*;
     use interface::mission::Units as Told;
-    use nalgebra::RowVector6;
+    use nalgebra::{Matrix3, RowVector6, Vector3};
     use numerics::{Generator, Source, stream};
     use rand_distr::{Distribution, StandardNormal};
 
@@ -491,7 +449,8 @@ mod tests {
             }
             assert!((changes.quiet.dx - quiet.dx).amax() < 1e-12);
             let hypothesis = &changes.open[0];
-            let Posterior { ln_likelihood, mean, v } = hypothesis.given(&prior);
+            let Posterior { exponent, det, mean, v } = hypothesis.given(&prior);
+            let ln_likelihood = exponent - 0.5 * det.ln();
             let off = hypothesis.e * mean;
             let covariance = quiet.p + hypothesis.e * v * hypothesis.e.transpose();
             assert!(off.amax() > 1e-5, "there is something to compare");
