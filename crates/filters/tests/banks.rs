@@ -92,3 +92,13 @@ fn a_chain_that_stays_is_a_bank_without_exchange() {
         assert!(mean < 1e-6 && covariance < 1e-6, "{mission}: {mean:e}, {covariance:e}");
     }
 }
+
+#[test]
+fn a_window_that_would_keep_too_many_hypotheses_is_refused_by_name() {
+    let told = navigation("leo_venting");
+    for bank in ["change_point", "hybrid"] {
+        let settings = settings(bank, &[("window", Value::Real(3601.0))]);
+        let error = Navigator::new(&told, &settings, 0.0).err().unwrap().to_string();
+        assert!(error.contains(&format!("{bank}.window = 3601 s")), "{error}");
+    }
+}

@@ -15,7 +15,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     motion: Motion::OfFrame,
     update: Update::Kalman,
     edits: true,
-    tunables: &[QUIET, RATE, DIRECTIONS, SCHEDULE],
+    tunables: &[QUIET, RATE, WINDOW, DECIDED, DIRECTIONS, SCHEDULE],
     presets: &[CONSTANTS],
     search: &[
         Search {
@@ -53,6 +53,31 @@ pub(super) const RATE: Tunable = Tunable {
     },
 };
 
+/// Tunable `window`.
+pub(super) const WINDOW: Tunable = Tunable {
+    name: "window",
+    about: "time for which the question whether the velocity has changed is left open",
+    kind: Kind::Real {
+        start: Start::Fixed(320.0),
+        unit: "s",
+        bound: Bound::Positive,
+    },
+};
+
+/// Longest window, s: memory and the cost of a step grow with it.
+const LONGEST_WINDOW: f64 = 3600.0;
+
+/// Tunable `decided`.
+pub(super) const DECIDED: Tunable = Tunable {
+    name: "decided",
+    about: "probability of no change below which a change is taken for certain",
+    kind: Kind::Real {
+        start: Start::Fixed(0.02),
+        unit: "",
+        bound: Bound::Fraction,
+    },
+};
+
 /// Tunable `directions`.
 pub(super) const DIRECTIONS: Tunable = Tunable {
     name: "directions",
@@ -72,9 +97,20 @@ pub(super) const SCHEDULE: Tunable = Tunable {
 /// # Errors
 /// When a tunable is out of range.
 pub(super) fn velocity_changes(setup: &Setup<'_>) -> Result<VelocityChanges, FilterError> {
+    let window = setup.tunables.real(WINDOW.name)?;
+    if window > LONGEST_WINDOW {
+        return Err(FilterError::OutOfRange {
+            name: format!("{}.{}", setup.tunables.law, WINDOW.name),
+            value: window,
+            unit: "s",
+            permitted: format!("at most {LONGEST_WINDOW} s: a hypothesis stands for every 40 s of it"),
+        });
+    }
     let parameters = Parameters {
         quiet: setup.tunables.real(QUIET.name)? * setup.off_nominal.sqrt(),
         rate: setup.tunables.real(RATE.name)?,
+        window,
+        decided: setup.tunables.real(DECIDED.name)?,
         directions: setup.tunables.boolean(DIRECTIONS.name)?,
         schedule: setup.tunables.boolean(SCHEDULE.name)?,
     };

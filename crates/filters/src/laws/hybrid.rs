@@ -4,7 +4,7 @@
 use super::adaptation::Setup;
 use super::bank::velocity_change::VelocityChanges;
 use super::bank::{Bank, CONSTANTS, Centre, Member, Mixture, Shared, Weights};
-use super::change_point::{DIRECTIONS, QUIET, RATE, SCHEDULE, velocity_changes};
+use super::change_point::{DECIDED, DIRECTIONS, QUIET, RATE, SCHEDULE, WINDOW, velocity_changes};
 use super::entry::{FilterEntry, Motion, Update};
 use super::mmae::{Decades, MEMORY};
 use crate::error::FilterError;
@@ -27,7 +27,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     motion: Motion::OfFrame,
     update: Update::Kalman,
     edits: true,
-    tunables: &[QUIET, RATE, MEMORY, DIRECTIONS, SCHEDULE],
+    tunables: &[QUIET, RATE, WINDOW, DECIDED, DIRECTIONS, SCHEDULE, MEMORY],
     presets: &[CONSTANTS],
     search: &[],
 };

@@ -36,10 +36,6 @@ const PRIOR_COUNT: [f64; SIZES] = [0.3, 0.06, 0.012, 0.0024, 0.00048];
 const PRIOR_TIME: f64 = 600.0;
 /// Ages at which hypotheses are thinned, and the distance that they then keep, s.
 const THINNED: [(f64, f64); 3] = [(0.0, 5.0), (30.0, 10.0), (80.0, 40.0)];
-/// Age at which a hypothesis is folded into the quiet filter, s.
-const OLDEST: f64 = 320.0;
-/// Weight of "no change" below which the mixture takes the place of the quiet filter.
-const DECIDED: f64 = 0.02;
 /// Nothing is learnt of when and where to from a change less probable than this.
 const CERTAIN: f64 = 0.2;
 
@@ -50,6 +46,10 @@ pub(in crate::laws) struct Parameters {
     pub quiet: f64,
     /// Factor on the rates at which changes are expected.
     pub rate: f64,
+    /// Age at which a hypothesis is folded into the quiet filter, s.
+    pub window: f64,
+    /// Weight of "no change" below which the mixture takes the place of the quiet filter.
+    pub decided: f64,
     /// Whether it learns where to.
     pub directions: bool,
     /// Whether it learns when.
@@ -65,6 +65,10 @@ pub(in crate::laws) struct VelocityChanges {
     sizes: [f64; SIZES],
     density: f64,
     prior: [f64; SIZES],
+    /// As [`Parameters::window`].
+    window: f64,
+    /// As [`Parameters::decided`].
+    decided: f64,
     quiet: Member<6>,
     /// The oldest first.
     open: Vec<Hypothesis>,
@@ -104,6 +108,8 @@ impl VelocityChanges {
             sizes: CHANGES.map(|c| c / units.velocity()),
             density: (parameters.quiet / unit).powi(2),
             prior: PRIOR_COUNT.map(|n| n * parameters.rate),
+            window: parameters.window,
+            decided: parameters.decided,
             quiet: Member {
                 dx: Vector6::zeros(),
                 p: Matrix6::zeros(),
@@ -156,7 +162,7 @@ impl VelocityChanges {
         shared.follow(&mut self.quiet);
         self.weigh();
         log_likelihood += self.weighed.ln_total - before;
-        if self.weighed.quiet < DECIDED {
+        if self.weighed.quiet < self.decided {
             self.decide();
         }
         self.open_next(&shared.relative);
@@ -246,7 +252,7 @@ impl VelocityChanges {
     fn watch(&mut self, shared: &Shared, dt: f64) {
         if let Some(watched) = &mut self.watched {
             watched.take(shared, dt, self.density);
-            if watched.hypothesis.age > OLDEST {
+            if watched.hypothesis.age > self.window {
                 self.remember_watched();
             }
         }
@@ -283,7 +289,7 @@ impl VelocityChanges {
     /// Drops what stands closer than its age allows, and folds in what is too old.
     fn thin(&mut self) {
         while let Some(oldest) = self.open.first()
-            && oldest.age > OLDEST
+            && oldest.age > self.window
         {
             self.fold_oldest();
         }
@@ -345,7 +351,9 @@ impl VelocityChanges {
             None => Directions::default().priors(&axes, &self.sizes, &rates, per_found),
         };
         let schedule = self.schedule.as_ref();
-        let expected = schedule.map_or(0.0, |schedule| schedule.expected(self.elapsed, spacing(0.0), OLDEST));
+        let expected = schedule.map_or(0.0, |schedule| {
+            schedule.expected(self.elapsed, spacing(0.0), self.window)
+        });
         let due = expected / rates.iter().sum::<f64>();
         let slot = (self.elapsed / spacing(0.0)).round() as u64;
         self.open.push(Hypothesis::new(slot, due, priors, axes));
@@ -384,6 +392,8 @@ mod tests {
             &Parameters {
                 quiet: 1e-3,
                 rate: 1.0,
+                window: 320.0,
+                decided: 0.02,
                 directions: true,
                 schedule: true,
             },
@@ -510,6 +520,6 @@ mod tests {
             let allowed = spacing(pair[1]);
             assert!(apart >= allowed - 1e-9 && apart <= 2.0 * spacing(pair[0]), "{ages:?}");
         }
-        assert!(ages[0] <= OLDEST && ages[0] > OLDEST - 45.0, "{ages:?}");
+        assert!(ages[0] <= changes.window && ages[0] > changes.window - 45.0, "{ages:?}");
     }
 }
