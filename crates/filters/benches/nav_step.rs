@@ -111,6 +111,7 @@ fn benches(c: &mut Criterion) {
             ..Settings::default()
         };
         for (tunable, chosen) in [
+            ("law", Value::Choice(1)),
             ("residuals", Value::Choice(1)),
             ("whiten", Value::Boolean(true)),
             ("shape", Value::Choice(shape)),
@@ -173,7 +174,7 @@ fn law(filter: usize, rows: usize, shape: usize) -> Law {
         "q_w" => Value::Real(1e-5),
         "psi0" => Value::Real(1e-3),
         "s0" => Value::Real(1e-6),
-        "residuals" => Value::Choice(1),
+        "law" | "residuals" => Value::Choice(1),
         "shape" => Value::Choice(shape),
         _ => t.kind.start(),
     };

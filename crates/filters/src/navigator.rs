@@ -209,13 +209,13 @@ impl Navigator {
             layout,
             start_s: start_time,
             estimator: Kind::new(&told, b, filter.motion, gain, law.acceleration())?,
+            editing: editing(filter, &law, b)?,
             law,
             divergence: Divergence {
                 limit: Positive.check("divergence.nis", b.divergence_nis, "")?,
                 samples: Positive.check("divergence.samples", f64::from(b.divergence_samples), "")?,
                 mean: 1.0,
             },
-            editing: editing(filter, b)?,
             r: setup.r,
             estimate: Estimate {
                 time: start_time,
@@ -416,7 +416,7 @@ impl Navigator {
 ///
 /// # Errors
 /// When a parameter is out of range.
-fn editing(filter: &FilterEntry, b: &Beliefs) -> Result<Editing, FilterError> {
+fn editing(filter: &FilterEntry, law: &Law, b: &Beliefs) -> Result<Editing, FilterError> {
     let refused = |name: &str, value: f64, permitted: &str| FilterError::OutOfRange {
         name: name.into(),
         value,
@@ -424,7 +424,7 @@ fn editing(filter: &FilterEntry, b: &Beliefs) -> Result<Editing, FilterError> {
         permitted: permitted.into(),
     };
     let on = match b.editing_mode {
-        -1 => filter.edits,
+        -1 => filter.edits && !law.reproduces(),
         0 => false,
         1 => true,
         other => return Err(refused("editing.mode", f64::from(other), "-1, 0 or 1")),

@@ -480,6 +480,26 @@ fn a_wild_sample_moves_no_filter_that_edits() {
 }
 
 /// A range that is not positive and a number that is none are never used, by any filter.
+/// What a law is kept for, it does as it did: of the laws of constrained_q only the bank edits, unless told to.
+#[test]
+fn a_law_that_reproduces_edits_only_when_told_to() {
+    for (law, mode, edits) in [(0, -1, true), (0, 0, false), (1, -1, false), (1, 1, true)] {
+        let mut chosen = settings("constrained_q", 8);
+        *chosen.tunable_mut("constrained_q", "law").unwrap() = Value::Choice(law);
+        chosen.beliefs.editing_mode = mode;
+        let (mut world, start) = OwnWorld::new(8, 1e-7);
+        let mut nav = Navigator::new(&navigation("leo_venting"), &chosen, 0.0).unwrap();
+        for k in 1..=100 {
+            let mut sample = world.step();
+            if k == 90 {
+                spoil(&mut sample, |z| *z += 5000.0);
+            }
+            nav.process(&sample, &start).unwrap();
+        }
+        assert_eq!(nav.outliers(), i32::from(edits), "law {law}, editing.mode {mode}");
+    }
+}
+
 #[test]
 fn an_impossible_sample_is_a_dropout() {
     for (label, mut nav, mut world, start) in everywhere(9, 1e-7) {

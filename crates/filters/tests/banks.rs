@@ -102,3 +102,23 @@ fn a_window_that_would_keep_too_many_hypotheses_is_refused_by_name() {
         assert!(error.contains(&format!("{bank}.window = 3601 s")), "{error}");
     }
 }
+
+/// A lower bound far above what the bank finds makes it as unsure of the velocity as one filter of that density; an upper bound far
+/// below makes it surer, if not as sure as one filter: members that are much louder and much more likely keep a small weight.
+#[test]
+fn bounds_of_a_density_make_a_bank_less_sure_or_surer() {
+    let sigma = |filter: &str, tunables: &[(&str, f64)]| {
+        let real: Vec<_> = tunables.iter().map(|(name, v)| (*name, Value::Real(*v))).collect();
+        let (mut world, start) = OwnWorld::new(2, 1e-6);
+        let mut nav = Navigator::new(&navigation("leo_venting"), &settings(filter, &real), 0.0).unwrap();
+        (0..600).for_each(|_| nav.process(&world.step(), &start).unwrap());
+        assert_eq!(nav.unsolved(), 0);
+        nav.estimate().sigma.fixed_rows::<3>(3).norm()
+    };
+    let free = sigma("constrained_q", &[]);
+    let (loud, one) = (sigma("constrained_q", &[("q_min", 1e-2)]), sigma("snc", &[("q", 1e-2)]));
+    assert!(loud > 10.0 * free, "{loud} and {free}");
+    assert!((loud / one - 1.0).abs() < 0.01, "{loud} and {one}");
+    let quiet = sigma("constrained_q", &[("q_max", 2e-6)]);
+    assert!(quiet < 0.7 * free, "{quiet} and {free}");
+}

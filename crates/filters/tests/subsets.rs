@@ -245,7 +245,11 @@ fn laws_on_windows_go_on_with_any_sensors() {
     let told = told("leo_venting", &aboard);
     for filter in ["milton", "constrained_q", "rbfnn_ekf", "rbfnn_aekf"] {
         let (mut world, start) = OwnWorld::new(2, 1e-6);
-        let mut nav = Navigator::new(&told, &settings(filter), 0.0).unwrap();
+        let mut chosen = settings(filter);
+        if let Some(law) = chosen.tunable_mut(filter, "law") {
+            *law = Value::Choice(1);
+        }
+        let mut nav = Navigator::new(&told, &chosen, 0.0).unwrap();
         let g = &mut stream(14, 0, Source::Metrology);
         for second in 1..=300 {
             let sample = world.step();

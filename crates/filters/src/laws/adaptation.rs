@@ -118,7 +118,68 @@ pub trait Adaptation {
     fn unsolved(&self) -> i32 {
         0
     }
+
+    /// Whether its tunables make it a law that is kept for what it once gave: then nothing acts that the entry has on of itself.
+    fn reproduces(&self) -> bool {
+        false
+    }
 }
+
+/// Makes an enumeration of boxed laws a law: everything is asked of the one that it holds.
+///
+/// * the enumeration's name, and its variants.
+macro_rules! one_of_laws {
+    ($name:ident: $($variant:ident),+) => {
+        impl $name {
+            fn inner(&self) -> &dyn $crate::laws::Adaptation {
+                match self { $(Self::$variant(law) => law.as_ref()),+ }
+            }
+            fn inner_mut(&mut self) -> &mut dyn $crate::laws::Adaptation {
+                match self { $(Self::$variant(law) => law.as_mut()),+ }
+            }
+        }
+
+        impl $crate::laws::Adaptation for $name {
+            fn acceleration(&self) -> $crate::dynamics::AccelerationModel {
+                self.inner().acceleration()
+            }
+            fn process_noise(&self, dt: f64) -> $crate::state::TargetMatrix {
+                self.inner().process_noise(dt)
+            }
+            fn look_ahead(&mut self, x: &::nalgebra::Vector6<f64>) {
+                self.inner_mut().look_ahead(x);
+            }
+            fn disturbance(&self) -> Option<&$crate::disturbance::Disturbance> {
+                self.inner().disturbance()
+            }
+            fn observe(&mut self, step: &$crate::laws::Step) -> Result<(), $crate::error::FilterError> {
+                self.inner_mut().observe(step)
+            }
+            fn replacement(&self) -> Option<&$crate::laws::Replacement> {
+                self.inner().replacement()
+            }
+            fn excess(&self, f: &::nalgebra::Matrix6<f64>) -> Option<::nalgebra::Matrix6<f64>> {
+                self.inner().excess(f)
+            }
+            fn s(&self) -> ::nalgebra::Vector3<f64> {
+                self.inner().s()
+            }
+            fn updates(&self) -> i32 {
+                self.inner().updates()
+            }
+            fn skipped(&self) -> i32 {
+                self.inner().skipped()
+            }
+            fn unsolved(&self) -> i32 {
+                self.inner().unsolved()
+            }
+            fn reproduces(&self) -> bool {
+                self.inner().reproduces()
+            }
+        }
+    };
+}
+pub(super) use one_of_laws;
 
 /// What a law may know when it is built.
 pub struct Setup<'a> {

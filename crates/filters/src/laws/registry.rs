@@ -1,14 +1,9 @@
 //! The registry of filters: one line each.
 
-use super::adaptation::{Adaptation, Setup, Step};
-use super::bank::Replacement;
+use super::adaptation::{Setup, one_of_laws};
 use super::entry::FilterEntry;
-use crate::disturbance::Disturbance;
-use crate::dynamics::AccelerationModel;
 use crate::error::FilterError;
-use crate::state::TargetMatrix;
 use interface::Navigation;
-use nalgebra::{Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 /// Makes the registry: the list of entries, the constructors, and the closed set of laws that a saved FMU state can hold.
@@ -25,14 +20,7 @@ macro_rules! registry {
         #[derive(Clone, Debug, Serialize, Deserialize)]
         pub enum Law { $($variant(Box<super::$module::$variant>)),* }
 
-        impl Law {
-            fn inner(&self) -> &dyn Adaptation {
-                match self { $(Self::$variant(law) => law.as_ref()),* }
-            }
-            fn inner_mut(&mut self) -> &mut dyn Adaptation {
-                match self { $(Self::$variant(law) => law.as_mut()),* }
-            }
-        }
+        one_of_laws!(Law: $($variant),*);
     };
 }
 
@@ -98,41 +86,5 @@ fn unknown(filter: usize) -> FilterError {
     FilterError::UnknownFilter {
         name: format!("number {}", filter + 1),
         known: FILTERS.iter().map(|f| f.name).collect::<Vec<_>>().join(", "),
-    }
-}
-
-impl Adaptation for Law {
-    fn acceleration(&self) -> AccelerationModel {
-        self.inner().acceleration()
-    }
-    fn process_noise(&self, dt: f64) -> TargetMatrix {
-        self.inner().process_noise(dt)
-    }
-    fn look_ahead(&mut self, x: &Vector6<f64>) {
-        self.inner_mut().look_ahead(x);
-    }
-    fn disturbance(&self) -> Option<&Disturbance> {
-        self.inner().disturbance()
-    }
-    fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
-        self.inner_mut().observe(step)
-    }
-    fn replacement(&self) -> Option<&Replacement> {
-        self.inner().replacement()
-    }
-    fn excess(&self, f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
-        self.inner().excess(f)
-    }
-    fn s(&self) -> Vector3<f64> {
-        self.inner().s()
-    }
-    fn updates(&self) -> i32 {
-        self.inner().updates()
-    }
-    fn skipped(&self) -> i32 {
-        self.inner().skipped()
-    }
-    fn unsolved(&self) -> i32 {
-        self.inner().unsolved()
     }
 }

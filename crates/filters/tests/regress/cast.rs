@@ -4,13 +4,17 @@ use super::approach::Approach;
 use super::common::navigation;
 use super::formation::{Formation, World};
 use astro::cr3bp::Cr3bpSystem;
-use filters::laws::FILTERS;
+use filters::laws::{FILTERS, FilterEntry};
 use filters::state::State;
+use filters::tunable::{Kind, Value};
 use filters::{Navigator, Reading, Sample, Settings};
 use interface::mission::Embedded;
 use nalgebra::Vector6;
 
-/// Every filter in every mission in which it has a meaning.
+/// A preset that is another law than its filter's first.
+const OTHER_LAWS: [(&str, &str); 1] = [("constrained_q", "regression")];
+
+/// Every filter, and every other law, in every mission in which it has a meaning.
 pub fn everywhere() -> impl Iterator<Item = (String, Navigator, Box<dyn World>, State)> {
     Embedded::scenarios().flat_map(|entry| {
         let told = navigation(entry.name);
@@ -18,18 +22,37 @@ pub fn everywhere() -> impl Iterator<Item = (String, Navigator, Box<dyn World>, 
             .iter()
             .enumerate()
             .filter(|(_, law)| law.no_meaning_in(&told).is_none());
-        let runs = meant.map(|(filter, law)| {
-            let settings = Settings {
+        let casts = meant.flat_map(|(filter, law)| {
+            let others = OTHER_LAWS.iter().filter(|(name, _)| *name == law.name);
+            std::iter::once((filter, law, None)).chain(others.map(move |(_, preset)| (filter, law, Some(*preset))))
+        });
+        let runs = casts.map(|(filter, law, preset)| {
+            let mut settings = Settings {
                 filter,
                 run: 3,
                 ..Settings::default()
             };
+            for (tunable, text) in preset.map_or(&[][..], |preset| sets(law, preset)) {
+                *settings.tunable_mut(law.name, tunable).unwrap() = value(law, tunable, text);
+            }
             let (world, start) = world(entry.name);
             let nav = Navigator::new(&told, &settings, 0.0).unwrap();
-            (format!("{} in {}", law.name, entry.name), nav, world, start)
+            let label = preset.map_or_else(|| law.name.to_owned(), |preset| format!("{}@{preset}", law.name));
+            (format!("{label} in {}", entry.name), nav, world, start)
         });
         runs.collect::<Vec<_>>()
     })
+}
+
+fn sets(law: &FilterEntry, preset: &str) -> &'static [(&'static str, &'static str)] {
+    law.presets.iter().find(|p| p.name == preset).unwrap().sets
+}
+
+fn value(law: &FilterEntry, tunable: &str, text: &str) -> Value {
+    match law.tunables.iter().find(|t| t.name == tunable).unwrap().kind {
+        Kind::Choice { items, .. } => Value::Choice(items.iter().position(|item| *item == text).unwrap()),
+        kind => panic!("{tunable} is set to {text}, and is {kind:?}"),
+    }
 }
 
 fn world(mission: &str) -> (Box<dyn World>, State) {

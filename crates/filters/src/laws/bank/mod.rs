@@ -63,6 +63,11 @@ pub(super) trait Bank {
     fn decisions(&self) -> i32 {
         0
     }
+
+    /// As [`Adaptation::unsolved`].
+    fn unsolved(&self) -> i32 {
+        0
+    }
 }
 
 impl<B: Bank> Adaptation for B {
@@ -98,5 +103,9 @@ impl<B: Bank> Adaptation for B {
 
     fn updates(&self) -> i32 {
         self.decisions()
+    }
+
+    fn unsolved(&self) -> i32 {
+        Bank::unsolved(self)
     }
 }
