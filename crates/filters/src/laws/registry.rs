@@ -1,6 +1,6 @@
 //! The registry of filters: one line each.
 
-use super::adaptation::{Adaptation, Setup, Step};
+use super::adaptation::{Adaptation, Hindsight, Setup, Step};
 use super::bank::Replacement;
 use super::entry::FilterEntry;
 use crate::disturbance::Disturbance;
@@ -50,6 +50,8 @@ registry! {
     Hybrid => hybrid;
     Imm => imm;
     Mmae => mmae;
+    Clairvoyant => clairvoyant;
+    TimesKnown => times_known;
 }
 
 impl Law {
@@ -113,6 +115,12 @@ impl Adaptation for Law {
     }
     fn disturbance(&self) -> Option<&Disturbance> {
         self.inner().disturbance()
+    }
+    fn hear(&mut self, truth: &Hindsight) {
+        self.inner_mut().hear(truth);
+    }
+    fn announced(&self) -> Vector3<f64> {
+        self.inner().announced()
     }
     fn observe(&mut self, step: &Step) -> Result<(), FilterError> {
         self.inner_mut().observe(step)

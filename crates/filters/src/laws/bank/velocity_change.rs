@@ -116,7 +116,7 @@ struct Part {
 
 impl VelocityChanges {
     pub(in crate::laws) fn new(parameters: &Parameters, units: &Units) -> Self {
-        let unit = units.velocity() / units.time.sqrt();
+        let unit = units.root_acceleration_density();
         Self {
             second: 1.0 / units.time,
             sizes: SIZES.map(|c| c / units.velocity()),
