@@ -199,6 +199,24 @@ mod tests {
     }
 
     #[test]
+    fn bounds_stand_below_the_filters_and_are_marked() {
+        let told = Summary {
+            bound: true,
+            ..row("clairvoyant", None)
+        };
+        for text in [
+            render(&[told.clone(), row("snc", None)]),
+            render_wide(&[told.clone(), row("snc", None)], &[]),
+            render_axes(&[told.clone(), row("snc", None)], ["x", "y", "z"]),
+        ] {
+            let [snc, bound] = ["snc", "clairvoyant *"].map(|label| text.find(label));
+            assert!(snc.is_some() && snc < bound, "{text}");
+            assert!(text.ends_with(BOUND_LEGEND) && BOUND_LEGEND.len() <= 81);
+        }
+        assert!(!render(&[row("snc", None)]).contains('*'));
+    }
+
+    #[test]
     fn snapshot_of_the_table() {
         let timing = TimingRow {
             scenario: "leo_venting".to_owned(),
