@@ -21,6 +21,12 @@ missions = ["nrho_venting"]
 [[fixed]]
 filter = "snc"
 values = { q = [1e-7, 3e-5, 1e-3] }
+[[bound]]
+filter = "clairvoyant"
+values = { q = [1e-8] }
+[[bound]]
+filter = "times_known"
+values = { q_active = [3e-4, 1e-2] }
 "#;
 
 fn text(path: &Path) -> &str {
@@ -77,6 +83,30 @@ fn laws_are_held_against_the_best_constant_of_each_level() {
         assert!(number(law, "pos_ratio_low") <= ratio && ratio <= number(law, "pos_ratio_high"));
     }
     assert!(rows.iter().all(|r| r["level"] != "elsewhere"));
+    // Who is told everything errs as where nothing is pushed hard; who is told when, less than who is not.
+    let bound = |level: &str, of: &str, column: &str| {
+        let own = rows
+            .iter()
+            .filter(|r| r["level"] == level && r["kind"] == "bound" && r["filter"].starts_with(of));
+        let shown: Vec<f64> = own
+            .filter(|r| !r["pos_ratio"].is_empty())
+            .map(|r| number(r, column))
+            .collect();
+        assert_eq!(shown.len(), 1, "{level}: the best of a family alone has a ratio");
+        shown[0]
+    };
+    let [calm, strong] = ["as_it_is", "strong"].map(|level| bound(level, "clairvoyant", "pos_rmse_m"));
+    // Strong vents drive the target some tenths further away.
+    assert!((strong / calm - 1.0).abs() < 0.2, "{calm} and {strong} m");
+    let [clairvoyant, times_known] = ["clairvoyant", "times_known"].map(|of| bound("strong", of, "pos_ratio"));
+    assert!(
+        clairvoyant < times_known && times_known < 0.9,
+        "{clairvoyant} and {times_known}"
+    );
+    assert!(
+        table.contains("clairvoyant *") && table.contains("times_known *"),
+        "{table}"
+    );
     for file in [
         "regret.md",
         "figures/leo_venting_regret.svg",

@@ -6,7 +6,7 @@ use filters::laws::FILTERS;
 use filters::state::State;
 use filters::{Navigator, Sample, Settings};
 use fmi2_export::{Experiment, Log, Model, ModelError, ModelInfo, Table, VendorAnnotation};
-use interface::annotation::{self, Filters, Only, Preset, Search, Set};
+use interface::annotation::{self, Bound, Filters, Only, Preset, Search, Set};
 use interface::mission::{Choice, Embedded, packed_guid};
 use interface::{Sensor, Signals, Status};
 use std::path::Path;
@@ -95,7 +95,7 @@ impl Model for NavModel {
     }
 }
 
-/// What the harness is told: presets, search ranges, and the filters that have a meaning in some scenarios only.
+/// What the harness is told: presets, search ranges, bounds, and the filters that have a meaning in some scenarios only.
 fn annotated() -> Filters {
     let mut all = Filters::default();
     for filter in FILTERS {
@@ -121,7 +121,10 @@ fn annotated() -> Filters {
             low: search.low,
             high: search.high,
         }));
-        all.meanings.extend(filter.lvlh_alone().map(|why| {
+        all.bounds.extend(filter.bound.then(|| Bound {
+            filter: filter.name.to_owned(),
+        }));
+        all.meanings.extend(filter.alone_in().map(|(frame, why)| {
             let has_meaning = |entry: &&Embedded| {
                 let mission = entry.mission();
                 mission.is_ok_and(|mission| filter.no_meaning_in(&mission.navigation()).is_none())
@@ -132,7 +135,7 @@ fn annotated() -> Filters {
                     .filter(has_meaning)
                     .map(|entry| entry.name.to_owned())
                     .collect(),
-                frame: Some("lvlh".to_owned()),
+                frame: Some(frame.name().to_owned()),
                 why: why.to_owned(),
             }
         }));

@@ -462,7 +462,7 @@ mod tests {
         let rows = NavModel::table().rows();
         for port in PORTS {
             let row = rows.iter().find(|row| row.name == port.name);
-            let ours = matches!(port.role, Role::Sensor | Role::Estimate);
+            let ours = matches!(port.role, Role::Sensor | Role::Untold | Role::Estimate);
             assert_eq!(row.is_some(), ours, "{}", port.name);
             if let Some(row) = row {
                 assert_eq!(row.shape.count(), port.shape.len(), "{}", port.name);

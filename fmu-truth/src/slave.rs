@@ -32,6 +32,7 @@ pub fn nothing() -> Signals {
         sensors: [Seen::default(); Sensor::COUNT],
         accelerometer_valid: false,
         dcm_bc_n: [0.0; 9],
+        event_time: 0.0,
         ..Signals::default()
     }
 }
@@ -46,5 +47,6 @@ pub fn show(signals: &mut Signals, sample: &SensorSample) {
     signals.accelerometer_valid = sample.accelerometer.valid;
     signals.accelerometer_mean = sample.accelerometer.mean;
     signals.alpha_c_bc = sample.accelerometer.alpha_c_bc.into();
+    (signals.dv_t_n, signals.event_time) = (sample.untold.dv_t_n.into(), sample.untold.event_time);
     signals.dcm_bc_n = std::array::from_fn(|i| sample.dcm_bc_n[(i / 3, i % 3)]);
 }

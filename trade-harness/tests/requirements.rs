@@ -114,6 +114,14 @@ fn equals_share_a_group_and_runs_of_both_are_compared() {
 }
 
 #[test]
+fn a_bound_takes_no_part_in_the_groups() {
+    let mut spec = spec(Quirk::None, &[("told", Quirk::None), ("good", Quirk::None)]);
+    spec.filters[0].bound = true;
+    let (_, result) = study(spec);
+    assert_eq!(ranks(&result.filters, Quantity::Velocity).unwrap(), [None, Some(1)]);
+}
+
+#[test]
 fn pooled_requirements_are_missed_by_failures_and_shares_count_them() {
     let failing = Quirk::Fails { run: 3, time: 20.0 };
     let per_run: Vec<f64> = (0..RUNS).map(|run| rms(&squares(run, 31..=40))).collect();

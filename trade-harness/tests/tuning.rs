@@ -186,11 +186,16 @@ fn filters_are_ranked_and_sorted_by_the_objective() {
         case: "nominal".to_owned(),
     };
     let filters = study.run(study::Engine::default(), |_, _| ()).unwrap().filters;
-    let rows: Vec<_> = filters
+    let mut rows: Vec<_> = filters
         .iter()
         .rev()
         .map(|f| Summary::new("mock", "nominal", f))
         .collect();
+    rows.push(Summary {
+        filter: "told".to_owned(),
+        bound: true,
+        ..rows[1].clone()
+    });
     let entries = rows.iter().map(|best| Entry {
         best,
         given: Some(&rows[1]),
@@ -200,7 +205,7 @@ fn filters_are_ranked_and_sorted_by_the_objective() {
     });
     let ranking = Ranking::new(entries.collect(), Objective::Position);
     let labels: Vec<_> = ranking.entries.iter().map(|e| e.best.filter.as_str()).collect();
-    assert_eq!(labels, ["same", "good", "lost", "never"]);
+    assert_eq!(labels, ["same", "good", "lost", "never", "told"]);
     let text = String::from_utf8(best::render(std::slice::from_ref(&ranking)).unwrap()).unwrap();
     let cells = |line: &str, columns: &[&str]| {
         let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
@@ -208,10 +213,15 @@ fn filters_are_ranked_and_sorted_by_the_objective() {
         let cells: Vec<String> = line.split(',').map(str::to_owned).collect();
         columns.iter().map(|c| cells[at(c)].clone()).collect::<Vec<_>>()
     };
-    // Equals share a place, the third is third; no estimate, no place.
+    // Equals share a place, the third is third; no estimate, no place, and none for a bound.
     let places: Vec<_> = text.lines().skip(1).map(|l| cells(l, &["rank"]).join("/")).collect();
-    assert_eq!(places, ["1", "1", "3", ""]);
+    assert_eq!(places, ["1", "1", "3", "", ""]);
     assert!(text.contains("first; second"), "{text}");
+    assert!(
+        ranking.render_wide().contains("told: a|b=1; bound, told by the truth"),
+        "{}",
+        ranking.render_wide()
+    );
     assert!(ranking.markdown().contains("a\\|b=1"), "{}", ranking.markdown());
     assert!(
         ranking.render_wide().contains("never: a|b=1; first; second"),

@@ -155,6 +155,19 @@ impl System {
     /// # Errors
     /// [`CosimError::TypeMismatch`] or [`CosimError::UnitMismatch`]; then nothing is connected.
     pub fn connect_by_name_from(&mut self, source: SlaveId, target: SlaveId) -> Result<usize, CosimError> {
+        self.connect_by_name_where(source, target, |_| true)
+    }
+
+    /// The same of the names that are wanted.
+    ///
+    /// # Errors
+    /// As for [`System::connect_by_name_from`].
+    pub fn connect_by_name_where(
+        &mut self,
+        source: SlaveId,
+        target: SlaveId,
+        wanted: impl Fn(&str) -> bool,
+    ) -> Result<usize, CosimError> {
         let outputs: HashMap<&str, PortAt> = self
             .ports_of(Causality::Output)
             .filter(|((slave, _), _)| *slave == source.0)
@@ -162,7 +175,7 @@ impl System {
             .collect();
         let mut made = Vec::new();
         for (to, port) in self.ports_of(Causality::Input) {
-            if to.0 != target.0 || self.source_of(to).is_some() {
+            if to.0 != target.0 || self.source_of(to).is_some() || !wanted(&port.name) {
                 continue;
             }
             if let Some(&from) = outputs.get(port.name.as_str()) {

@@ -57,6 +57,14 @@ pub enum FilterError {
         /// Angular momentum as given, m2/s.
         h: f64,
     },
+    /// A bound that nobody tells the truth.
+    #[error(
+        "at t = {t_s} s: this filter is a bound and has to be told the truth: connect truth.dv_t_n and truth.event_time"
+    )]
+    NothingUntold {
+        /// Epoch of the sample, s.
+        t_s: f64,
+    },
     /// A value outside its range.
     #[error("{name} = {value}{}{unit}: must be {permitted}", if unit.is_empty() { "" } else { " " })]
     OutOfRange {

@@ -10,7 +10,8 @@
 //! * What a filter is told of a mission is [`interface::Navigation`]; [`Beliefs`] are what a user sets in its place, and
 //!   [`tunable`] says how a law's start values come from the mission's scales.
 //!
-//! Nothing here knows of the simulated truth, and nothing here knows of FMI.
+//! Nothing here knows of the simulated truth, but for the two filters that are bounds and are told by it ([`Untold`]); nothing here
+//! knows of FMI.
 
 pub mod beliefs;
 mod disturbance;
@@ -38,5 +39,5 @@ pub use innovation::Innovation;
 pub use interface::{Navigation, Status};
 pub use layout::{Layout, Measured};
 pub use navigator::{Estimate, Navigator, Settings};
-pub use sample::{Reading, Sample, SpecificForce};
+pub use sample::{Reading, Sample, SpecificForce, Untold};
 pub use units::Units;

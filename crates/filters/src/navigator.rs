@@ -6,9 +6,9 @@ use crate::editing::Editing;
 use crate::error::FilterError;
 use crate::estimators::{Gap, Kind, Reported};
 use crate::innovation::Innovation;
-use crate::laws::{Adaptation, FILTERS, FilterEntry, Law, Replacement, Setup, Step, Update, registry};
+use crate::laws::{Adaptation, FILTERS, FilterEntry, Hindsight, Law, Replacement, Setup, Step, Update, registry};
 use crate::layout::Layout;
-use crate::sample::{Reading, Sample};
+use crate::sample::{Reading, Sample, Untold};
 use crate::state::{RowVector, State, Target, TargetMatrix};
 use crate::tunable::{Tunables, Value};
 use crate::units::Units;
@@ -126,6 +126,8 @@ pub struct Navigator {
     status: Status,
     /// Epochs at which no sensor of the target was due, since the last at which one was: the law has not heard of them.
     between: Option<Between>,
+    /// What a bound has been told so far; `None` for a filter, which is told nothing.
+    untold: Option<Untold>,
 }
 
 /// Epochs of the accelerometer alone, as one: their length, transition and correction of the target's nine states.
@@ -227,6 +229,7 @@ impl Navigator {
             innovation: Innovation::default(),
             status: Status::Initialising,
             between: None,
+            untold: filter.bound.then(Untold::default),
         })
     }
 
@@ -260,6 +263,11 @@ impl Navigator {
         }
         let estimator = self.estimator.get_mut();
         estimator.check(&sample)?;
+        if let Some(before) = &mut self.untold {
+            let untold = sample.untold.ok_or(FilterError::NothingUntold { t_s })?;
+            self.law.hear(&hindsight(&untold, before, gap_s, &self.units));
+            *before = untold;
+        }
         self.editing.remove_impossible(&mut sample, self.layout);
         if !estimator.started() {
             if nav_init.iter().all(|v| *v == 0.0) {
@@ -409,6 +417,14 @@ impl Navigator {
     /// How often the law passed an update by because its window was singular.
     pub fn skipped(&self) -> i32 {
         self.law.skipped()
+    }
+}
+
+/// What a bound is told of the interval between two samples.
+fn hindsight(now: &Untold, before: &Untold, gap_s: f64, units: &Units) -> Hindsight {
+    Hindsight {
+        a_t_n: (now.dv_t_n - before.dv_t_n) / (gap_s * units.acceleration()),
+        active: ((now.event_time - before.event_time) / gap_s).clamp(0.0, 1.0),
     }
 }
 

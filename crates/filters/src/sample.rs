@@ -58,6 +58,15 @@ impl SpecificForce {
     }
 }
 
+/// What no filter but a bound is told of, summed up since the start of the run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Untold {
+    /// Integral of the target's unannounced acceleration, axes N, m/s.
+    pub dv_t_n: Vector3<f64>,
+    /// Time in which something unannounced that begins and ends pushed it, s.
+    pub event_time: f64,
+}
+
 /// What the sensors report at one epoch. A sensor that the mission does not list is not read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
@@ -73,6 +82,8 @@ pub struct Sample {
     pub accelerometer: Option<SpecificForce>,
     /// Attitude at the epoch: axes N to chaser body.
     pub dcm_bc_n: Matrix3<f64>,
+    /// For a filter that is a bound; `None` where nobody says it.
+    pub untold: Option<Untold>,
 }
 
 impl Sample {
@@ -85,6 +96,7 @@ impl Sample {
             target_orbit: TargetOrbit::from_vector(&Vector6::zeros()),
             accelerometer: None,
             dcm_bc_n: Matrix3::identity(),
+            untold: None,
         }
     }
 }
@@ -130,6 +142,10 @@ impl From<&Signals> for Sample {
                 SpecificForce::Instant(alpha)
             }),
             dcm_bc_n: Matrix3::from_row_slice(&s.dcm_bc_n),
+            untold: (s.event_time >= 0.0).then(|| Untold {
+                dv_t_n: s.dv_t_n.into(),
+                event_time: s.event_time,
+            }),
         }
     }
 }

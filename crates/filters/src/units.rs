@@ -35,6 +35,11 @@ impl Units {
         self.length / (self.time * self.time)
     }
 
+    /// One internal square root of an acceleration density, m/s^1.5.
+    pub fn root_acceleration_density(&self) -> f64 {
+        self.velocity() / self.time.sqrt()
+    }
+
     /// One internal square root of a jerk density, m/s^2.5.
     pub fn root_jerk_density(&self) -> f64 {
         self.length / (self.time * self.time * self.time.sqrt())

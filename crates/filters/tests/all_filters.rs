@@ -11,7 +11,7 @@ use common::{OwnWorld, navigation};
 use filters::laws::FILTERS;
 use filters::state::State;
 use filters::tunable::{Kind, Value};
-use filters::{FilterError, Navigator, Reading, Sample, Settings, Status};
+use filters::{FilterError, Navigator, Reading, Sample, Settings, Status, Untold};
 use formation::{Formation, World};
 use interface::Sensor;
 use interface::mission::Frame;
@@ -519,5 +519,38 @@ fn an_impossible_sample_is_a_dropout() {
         }
         assert_eq!(passed_by, if label.ends_with("leo_venting") { 2 } else { 1 }, "{label}");
         assert!(nav.estimate().x.iter().all(|v| v.is_finite()), "{label}");
+    }
+}
+
+/// Whatever stands where a bound is told the truth: a filter does not read it, and a bound does not do without.
+#[test]
+fn only_bounds_hear_the_truth() {
+    for (label, mut nav, mut world, start) in everywhere(5, 1e-6) {
+        let name = label.split(' ').next().unwrap();
+        if FILTERS.iter().any(|entry| entry.name == name && entry.bound) {
+            let untold = Sample {
+                untold: None,
+                ..world.step()
+            };
+            let error = nav.process(&untold, &start).unwrap_err().to_string();
+            assert!(error.contains("connect truth.dv_t_n"), "{label}: {error}");
+            continue;
+        }
+        let mut lied_to = nav.clone();
+        for k in 1..=200 {
+            let sample = world.step();
+            let lie = Untold {
+                dv_t_n: Vector3::new(f64::from(k), -1e3, f64::NAN),
+                event_time: 1e9,
+            };
+            let lie = Sample {
+                untold: (k % 3 > 0).then_some(lie),
+                ..sample.clone()
+            };
+            nav.process(&sample, &start).unwrap();
+            lied_to.process(&lie, &start).unwrap();
+            let [saved, other] = [&nav, &lied_to].map(|nav| postcard::to_allocvec(nav).unwrap());
+            assert_eq!(saved, other, "{label} at {k} s");
+        }
     }
 }

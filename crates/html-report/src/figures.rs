@@ -106,7 +106,7 @@ pub(crate) fn all(folder: &Folder) -> Result<Vec<Figures>, ReportError> {
 }
 
 fn figures_of(folder: &Folder, study: &StudyFacts, index: usize, room: [usize; 2]) -> Result<Figures, ReportError> {
-    let summary = folder.summary(study);
+    let (summary, bounds) = (folder.summary(study), folder.bounds(study));
     let mut filters = Vec::new();
     for row in &summary {
         filters.push(filter_figures(folder, study, row, room)?);
@@ -128,8 +128,8 @@ fn figures_of(folder: &Folder, study: &StudyFacts, index: usize, room: [usize; 2
         events: events(&study.mission),
         filters,
         path: file.and_then(|file| path(&file, &study.mission["environment"]["gravity"])),
-        phases: Matrix::new(&folder.phases(study), "phase"),
-        cases: Matrix::new(&folder.cases(&study.scenario), "case").filter(|_| first),
+        phases: Matrix::new(&folder.phases(study), "phase", &bounds),
+        cases: Matrix::new(&folder.cases(&study.scenario), "case", &bounds).filter(|_| first),
         search: if first {
             searches(&folder.search(&study.scenario))
         } else {

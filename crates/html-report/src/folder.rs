@@ -59,6 +59,11 @@ impl Row {
         self.text(column).parse().unwrap_or(0)
     }
 
+    /// Whether it is of a bound, which is told by the truth and has no place among filters; of `summary.csv`.
+    pub fn is_bound(&self) -> bool {
+        self.text("kind") == "bound"
+    }
+
     fn is_of(&self, study: &StudyFacts) -> bool {
         self.text("scenario") == study.scenario && self.text("case") == study.case
     }
@@ -120,6 +125,12 @@ impl Folder {
 
     pub fn summary(&self, study: &StudyFacts) -> Vec<&Row> {
         self.summary.iter().filter(|r| r.is_of(study)).collect()
+    }
+
+    /// Names of the bounds among its filters.
+    pub fn bounds(&self, study: &StudyFacts) -> Vec<&str> {
+        let rows = self.summary.iter().filter(|r| r.is_of(study) && r.is_bound());
+        rows.map(|r| r.text("filter")).collect()
     }
 
     /// Rows of `runs.csv` of a filter, in the order of the runs.

@@ -28,8 +28,9 @@ pub(crate) struct Matrix {
 impl Matrix {
     /// * `rows`: of a table with `filter` and `pos_rmse_m`.
     /// * `by`: column of the table whose values the filters are compared in.
+    /// * `bounds`: filters that are none, and the best of nothing.
     /// * returns: `None` with fewer than two of these, which show no more than the summary.
-    pub fn new(rows: &[&Row], by: &str) -> Option<Self> {
+    pub fn new(rows: &[&Row], by: &str, bounds: &[&str]) -> Option<Self> {
         let distinct = |column: &str| {
             let mut names: Vec<String> = Vec::new();
             for row in rows {
@@ -47,8 +48,10 @@ impl Matrix {
                 .find(|r| r.text("filter") == filter && r.text(by) == column)?;
             row.number("pos_rmse_m")
         };
+        let takes_part = |filter: &String| !bounds.contains(&filter.as_str());
+        let contest = || filters.iter().filter(|filter| takes_part(filter));
         let least = |column: &String| {
-            let values = filters.iter().filter_map(|f| value(f, column));
+            let values = contest().filter_map(|f| value(f, column));
             values.min_by(f64::total_cmp)
         };
         let least: Vec<Option<f64>> = columns.iter().map(least).collect();
@@ -60,7 +63,9 @@ impl Matrix {
             let decades = ratio(f, c).map(f64::log10).filter(|d| !d.is_nan());
             decades.map_or(0.0, |d| d.clamp(0.0, 1.0))
         };
-        let best = |f: &String, c: usize| value(f, &columns[c]).is_some() && value(f, &columns[c]) == least[c];
+        let best = |f: &String, c: usize| {
+            takes_part(f) && value(f, &columns[c]).is_some() && value(f, &columns[c]) == least[c]
+        };
         let count = columns.len();
         Some(Self {
             of: if wide { by } else { "filter" }.to_owned(),

@@ -152,12 +152,20 @@ pub(crate) fn render(folder: &Folder) -> Result<String, ReportError> {
 
 fn section(folder: &Folder, study: &StudyFacts, figures: &Figures) -> Result<Section, ReportError> {
     let summary = folder.summary(study);
-    let values: Vec<RunValues> = summary.iter().map(|row| run_values(folder, study, row)).collect();
+    let filters = summary.iter().filter(|row| !row.is_bound());
+    let values: Vec<RunValues> = filters.map(|row| run_values(folder, study, row)).collect();
     let verdict = Verdict::new(&values)?;
-    let (headline, sentences) = match &verdict {
+    let (headline, mut sentences) = match &verdict {
         Some(verdict) => (format!("{}.", verdict.headline()), verdict.sentences()),
         None => ("No filter has a result.".to_owned(), Vec::new()),
     };
+    let bounds = folder.bounds(study);
+    if !bounds.is_empty() {
+        sentences.push(format!(
+            "Bounds, told by the truth and not held beside it: {}.",
+            bounds.join(", ")
+        ));
+    }
     let deviations = deviations(study);
     let requirements: Vec<Requirement> = folder.requirements(study).into_iter().map(requirement).collect();
     let every = figures
@@ -365,8 +373,9 @@ fn table_row(row: &Row) -> TableRow {
             _ => short(row.number(column)),
         },
     };
+    let bound = if row.is_bound() { " (bound)" } else { "" };
     TableRow {
-        filter: row.text("filter").to_owned(),
+        filter: format!("{}{bound}", row.text("filter")),
         cells: TABLE.iter().map(cell).collect(),
     }
 }

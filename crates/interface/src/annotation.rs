@@ -1,4 +1,5 @@
-//! What a navigation FMU tells the harness beside its variables: presets, search ranges, and where a filter has a meaning.
+//! What a navigation FMU tells the harness beside its variables: presets, search ranges, where a filter has a meaning, and which
+//! are bounds.
 //!
 //! It stands in `modelDescription.xml` as a vendor annotation for [`TOOL`], one `Filters` element. The structs here are what
 //! fmu-nav writes with serde and what the harness reads with [`Filters::read`].
@@ -20,6 +21,17 @@ pub struct Filters {
     /// Filters that have a meaning in some scenarios only; the others have one everywhere.
     #[serde(rename = "Meaning", with = "only_list", default)]
     pub meanings: Vec<Only>,
+    /// Filters that are told by the truth what no filter knows: bounds, to be fed `truth.*` and never to be ranked.
+    #[serde(rename = "Bounds", with = "bound_list", default)]
+    pub bounds: Vec<Bound>,
+}
+
+/// A filter that is a bound.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Bound {
+    /// The filter.
+    #[serde(rename = "@filter")]
+    pub filter: String,
 }
 
 /// A named parameter set of one filter.
@@ -115,6 +127,7 @@ impl Filters {
             all.presets.extend(told.presets);
             all.searches.extend(told.searches);
             all.meanings.extend(told.meanings);
+            all.bounds.extend(told.bounds);
         }
         Ok(all)
     }
@@ -122,6 +135,11 @@ impl Filters {
     /// The presets of one filter.
     pub fn presets_of<'a>(&'a self, filter: &'a str) -> impl Iterator<Item = &'a Preset> {
         self.presets.iter().filter(move |preset| preset.filter == filter)
+    }
+
+    /// Whether a filter is a bound.
+    pub fn is_bound(&self, filter: &str) -> bool {
+        self.bounds.iter().any(|bound| bound.filter == filter)
     }
 
     /// Why a filter has no meaning in a scenario; `None` where it has one.
@@ -173,6 +191,7 @@ macro_rules! list {
 list!(preset_list of Preset as "Preset");
 list!(search_list of Search as "Search");
 list!(only_list of Only as "Only");
+list!(bound_list of Bound as "Bound");
 
 /// A number in the shortest form that reads back to the same bits.
 mod number {
@@ -221,6 +240,7 @@ mod tests {
       <Searches>
         <Search variable="gate" low="1e-7" high=" 0.01"/>
       </Searches>
+      <Bounds><Bound filter="oracle"/></Bounds>
       <Later thing="unknown today"/>
     </Filters>"#;
 
@@ -253,6 +273,7 @@ mod tests {
         };
         assert_eq!(filters.searches, [gate]);
         assert_eq!(filters.meanings[0].scenarios, ["formation", "far"]);
+        assert!(filters.is_bound("oracle") && !filters.is_bound("milton"));
     }
 
     #[test]

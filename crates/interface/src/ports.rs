@@ -55,6 +55,8 @@ pub enum Role {
     Command,
     /// An output of the truth that no filter may see.
     Truth,
+    /// An output of the truth, as of the newest sample, that a bound is told of and every other filter passes by.
+    Untold,
     /// An output of the filter.
     Estimate,
 }
@@ -179,7 +181,7 @@ const fn rows(
 
 use Kind::{Boolean, Enumeration, Integer, Real};
 use Part::{Innovation, Measured, Variance};
-use Role::{Command, Estimate, Sensor, Truth};
+use Role::{Command, Estimate, Sensor, Truth, Untold};
 use Shape::{Matrix, Scalar, Vector};
 
 /// Units of the 18 states, by groups of three.
@@ -269,6 +271,11 @@ pub const PORTS: &[Port] = &[
 
     row(Truth, "truth.event_active", Boolean, Scalar, &[],
         &["whether a vent, or a burn or a_dist_t_n that no filter is told of, pushes the target just after this time"]),
+
+    row(Untold, "truth.dv_t_n", Real, Vector(3), &["m/s"],
+        &["integral of what truth.a_t_n holds and no filter is told of, axes N, from the start to the newest sample"]),
+    row(Untold, "truth.event_time", Real, Scalar, &["s"],
+        &["time in which truth.event_active held, from the start to the newest sample; -1 where nobody says"]),
 
     row(Estimate, "est.time", Real, Scalar, &["s"], &["epoch of the sample last used"]),
     row(Estimate, "est.count", Integer, Scalar, &[], &["ordinal of the sample last used"]),

@@ -13,6 +13,7 @@ pub fn interface_document() -> String {
     let mut out = String::from(INTERFACE_HEAD);
     for (role, title) in [
         (Role::Sensor, "From fmu-truth to fmu-nav"),
+        (Role::Untold, "From fmu-truth to the bounds among fmu-nav's filters"),
         (Role::Command, "Into fmu-truth"),
         (Role::Truth, "From fmu-truth, for scoring"),
         (Role::Estimate, "From fmu-nav"),
@@ -55,6 +56,8 @@ const INTERFACE_TAIL: &str = "## Rules
   get the same estimates, the latter one step later.
 * An accelerometer reading with `accelerometer.mean` false is held over the step that follows; with true it is the mean over the
   time since the last reading, which the filter propagates with it. The direction cosine matrix is that of the epoch.
+* A filter that is a bound reads `truth.dv_t_n` and `truth.event_time` and stops with an error where nobody says them; whatever stands
+  there, any other filter's estimates are the same, bit for bit.
 * Inputs take effect in `fmi2DoStep` only.
 * LiDAR axes: x_L = z_B, y_L = x_B, z_L = y_B. Camera angles are in the same axes; radio range rate is that of inertial space.
 * Parameters that start at -1 mean \"the mission's own\".

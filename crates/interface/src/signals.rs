@@ -1,4 +1,4 @@
-//! What the truth hands to the filter: one struct, whose places the sensor ports name.
+//! What the truth hands to the filter: one struct, whose places the ports name.
 
 use std::ops::{Index, IndexMut};
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::mission::Sensor;
 use crate::ports::{Part, Port, Role, of};
 
-/// The newest sensor sample and the initial estimate, SI and radians; matrices row by row.
+/// The newest sensor sample, the initial estimate and what a bound is told, SI and radians; matrices row by row.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Signals {
     /// `sample_time`, s.
@@ -28,6 +28,10 @@ pub struct Signals {
     pub dcm_bc_n: [f64; 9],
     /// `nav_init.x`.
     pub nav_init: [f64; 18],
+    /// `truth.dv_t_n`, m/s.
+    pub dv_t_n: [f64; 3],
+    /// `truth.event_time`, s; negative where nobody says.
+    pub event_time: f64,
 }
 
 /// What a sensor of the target says at an epoch.
@@ -73,6 +77,8 @@ impl Default for Signals {
             alpha_c_bc: [0.0; 3],
             dcm_bc_n: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
             nav_init: [0.0; 18],
+            dv_t_n: [0.0; 3],
+            event_time: -1.0,
         }
     }
 }
@@ -102,6 +108,10 @@ pub enum Slot {
     Attitude,
     /// The initial estimate.
     NavInit,
+    /// Velocity that no filter is told of.
+    DvT,
+    /// Time of events.
+    EventTime,
 }
 
 impl Slot {
@@ -114,6 +124,8 @@ impl Slot {
             Self::Alpha => &s.alpha_c_bc,
             Self::Attitude => &s.dcm_bc_n,
             Self::NavInit => &s.nav_init,
+            Self::DvT => &s.dv_t_n,
+            Self::EventTime => std::slice::from_ref(&s.event_time),
             Self::Count | Self::Due(_) | Self::Valid(_) | Self::AccelerometerValid | Self::AccelerometerMean => &[],
         }
     }
@@ -127,6 +139,8 @@ impl Slot {
             Self::Alpha => &mut s.alpha_c_bc,
             Self::Attitude => &mut s.dcm_bc_n,
             Self::NavInit => &mut s.nav_init,
+            Self::DvT => &mut s.dv_t_n,
+            Self::EventTime => std::slice::from_mut(&mut s.event_time),
             Self::Count | Self::Due(_) | Self::Valid(_) | Self::AccelerometerValid | Self::AccelerometerMean => &mut [],
         }
     }
@@ -166,7 +180,7 @@ impl Slot {
     }
 }
 
-/// Where the values of a sensor port stand; `None` for a port of another role.
+/// Where the values of a port from truth to filter stand; `None` for a port of another role.
 pub fn slot(port: &Port) -> Option<Slot> {
     match port.part {
         Some((sensor, Part::Due)) => return Some(Slot::Due(sensor)),
@@ -188,13 +202,16 @@ pub fn slot(port: &Port) -> Option<Slot> {
         "accelerometer.alpha_c_bc" => Slot::Alpha,
         "dcm_bc_n" => Slot::Attitude,
         "nav_init.x" => Slot::NavInit,
+        "truth.dv_t_n" => Slot::DvT,
+        "truth.event_time" => Slot::EventTime,
         _ => return None,
     })
 }
 
-/// Every sensor port with its place.
+/// Every port from truth to filter with its place: those of the sensors, then those of bounds.
 pub fn slots() -> impl Iterator<Item = (&'static Port, Slot)> {
-    of(Role::Sensor).filter_map(|port| Some((port, slot(port)?)))
+    let ports = of(Role::Sensor).chain(of(Role::Untold));
+    ports.filter_map(|port| Some((port, slot(port)?)))
 }
 
 #[cfg(test)]
@@ -203,8 +220,8 @@ mod tests {
     use crate::ports::Kind;
 
     #[test]
-    fn every_sensor_port_has_a_place_of_its_own_and_of_its_size() {
-        assert_eq!(slots().count(), of(Role::Sensor).count());
+    fn every_port_to_a_filter_has_a_place_of_its_own_and_of_its_size() {
+        assert_eq!(slots().count(), of(Role::Sensor).chain(of(Role::Untold)).count());
         let same = |slot: Slot, a: &Signals, b: &Signals| {
             slot.reals(a) == slot.reals(b) && slot.boolean(a) == slot.boolean(b) && slot.integer(a) == slot.integer(b)
         };

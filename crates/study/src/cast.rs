@@ -111,7 +111,8 @@ impl Models {
         in_vain.chain(elsewhere).collect()
     }
 
-    /// Filters that are chosen by name in a world, where [`ALL`] stands for every one with a meaning there that is not named.
+    /// Filters that are chosen by name in a world, where [`ALL`] stands for every one with a meaning there that is neither named
+    /// nor a bound.
     fn choices(&self, plan: &Plan, world: &World) -> Vec<FilterChoice> {
         let asked = plan.choices(world);
         let Some(nav) = self
@@ -131,6 +132,7 @@ impl Models {
             let items = nav.description().items("filter").iter().map(|item| item.name.as_str());
             let meant = items.filter(|name| {
                 !named(name)
+                    && !nav.filters.is_bound(name)
                     && nav
                         .filters
                         .without_meaning(name, &world.name, world.frame.name())
@@ -175,6 +177,10 @@ impl Models {
         let choices = &self.choices(plan, world);
         let assignments: Vec<Assignment> = plan.in_fmus().cloned().collect();
         let (mut truth, mut filters) = self.cast(world, choices, &plan.tuned, &assignments)?;
+        for filter in filters.iter_mut().filter(|_| plan.allow_truth) {
+            let asks = |model: &Model| model.name == filter.model && model.asks_for_the_truth();
+            filter.bound |= self.foreign.iter().any(asks);
+        }
         let mut drivers = self.drivers(world, &filters, &assignments)?;
         let parts = std::iter::once(&mut truth).chain(&mut filters).chain(&mut drivers);
         self.vary(parts, &plan.variations, &assignments)?;
@@ -266,6 +272,7 @@ impl Models {
                 .filter(|a| a.model != NAV || self.concerns(&a.variable, choice));
             let mut filter = starts.assign(concerned)?.named(&choice.label);
             filter.calculated.retain(|name| self.concerns(name, choice));
+            filter.bound = model.filters.is_bound(&choice.name);
             filters.push(filter);
         }
         for model in &self.foreign {

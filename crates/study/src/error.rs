@@ -278,8 +278,8 @@ pub enum StudyError {
         /// Inputs of the world, without indices.
         inputs: String,
     },
-    /// Nothing feeds the initial estimate of a filter.
-    #[error("'{label}' needs its initial estimate, but the truth offers no '{input}'")]
+    /// Nothing feeds the initial estimate of a filter, or what a bound is told.
+    #[error("'{label}' needs '{input}', but the truth offers none")]
     MissingInput {
         /// Participant.
         label: String,

@@ -8,6 +8,7 @@ use stats::{Ensemble, FLIPS, ScalarEnsemble, SignFlips};
 
 use crate::error::StudyError;
 use crate::kept::{KEPT_RUNS, KeptRun};
+use crate::participant::Participant;
 use crate::phase_result::PhaseResult;
 use crate::record::{QUANTITIES, Quantity, Record};
 use crate::run::{Ending, Failure, SlaveTime};
@@ -54,6 +55,8 @@ pub struct Timing {
 pub struct FilterResult {
     /// Text of the `filter` column.
     pub label: String,
+    /// Whether it is a bound and no filter.
+    pub bound: bool,
     /// Each run, in order.
     pub runs: Vec<RunRow>,
     /// Errors by [`Quantity`], over the runs that did not fail.
@@ -83,6 +86,13 @@ pub struct FilterResult {
 }
 
 impl FilterResult {
+    pub(crate) fn of(filter: &Participant, layout: &Layout) -> Self {
+        Self {
+            bound: filter.bound,
+            ..Self::new(&filter.label, layout)
+        }
+    }
+
     pub(crate) fn new(label: &str, layout: &Layout) -> Self {
         let &Layout {
             epochs,
@@ -94,6 +104,7 @@ impl FilterResult {
         let names = layout.phases.iter().zip(0..);
         Self {
             label: label.to_owned(),
+            bound: false,
             runs: Vec::new(),
             // Of no epochs until there is an error to add: most filters lack some of the quantities.
             ensembles: std::array::from_fn(|_| Ensemble::new(0)),

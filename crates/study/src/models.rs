@@ -18,6 +18,8 @@ pub const NAV: &str = "fmu-nav";
 
 /// How the outputs of a filter begin that a driver may read.
 const OF_FILTERS: &str = "est.";
+/// How the outputs of the truth begin that only a bound may read.
+pub(crate) const OF_TRUTH: &str = "truth.";
 
 /// An opened FMU and its name in the study.
 #[derive(Clone)]
@@ -70,12 +72,22 @@ impl Model {
 
     /// Whether it has an input that a filter feeds.
     pub(crate) fn reads_a_filter(&self) -> bool {
+        self.has_input(OF_FILTERS)
+    }
+
+    /// Whether it has an input that no filter is fed.
+    pub(crate) fn asks_for_the_truth(&self) -> bool {
+        self.has_input(OF_TRUTH)
+    }
+
+    /// Whether it has an input whose name in the contract begins like this.
+    fn has_input(&self, begin: &str) -> bool {
         let mut inputs = self
             .description()
             .variables
             .iter()
             .filter(|v| v.causality == Causality::Input);
-        inputs.any(|v| self.contract_name(&v.name).starts_with(OF_FILTERS))
+        inputs.any(|v| self.contract_name(&v.name).starts_with(begin))
     }
 
     /// Real parameters that it calculates at initialization, by contract name.

@@ -80,7 +80,7 @@ fn sums(filter: &FilterResult, quantity: Quantity) -> Vec<Sum> {
 /// The best filter makes the first group with all those whose difference to it has a 95 % interval that holds 0; the best of the
 /// others makes the next, and so on. Where runs are too few for an interval nothing can be told apart, and all share a group.
 ///
-/// * returns: by filter; `None` without a result.
+/// * returns: by filter; `None` without a result, and for a bound, which takes no part.
 ///
 /// # Errors
 /// As for [`pairs`].
@@ -92,6 +92,7 @@ pub fn ranks(filters: &[FilterResult], quantity: Quantity) -> Result<Vec<Option<
     let mut left: Vec<(usize, f64)> = filters
         .iter()
         .enumerate()
+        .filter(|(_, f)| !f.bound)
         .filter_map(|(i, f)| Some((i, rmse(f)?)))
         .collect();
     left.sort_by(|a, b| a.1.total_cmp(&b.1));

@@ -55,6 +55,10 @@ pub struct Participant {
     pub starts: Vec<(String, Value)>,
     /// Start values that each run draws anew.
     pub varied: Vec<Varied>,
+    /// Whether it is a bound and no filter: fed `truth.*`, and never ranked.
+    pub bound: bool,
+    /// Whether its FMU has bounds, so that inputs `truth.*` are theirs and stay open where it is a filter.
+    pub beside_bounds: bool,
     /// What the numbers of its `status` mean.
     pub statuses: StatusItems,
     /// Real parameters that it calculates at initialization, by contract name: what its settings come to.

@@ -176,6 +176,8 @@ mod tests {
             aliases: Vec::new(),
             starts: starts.iter().map(|(n, v)| ((*n).to_owned(), Value::Real(*v))).collect(),
             varied: Vec::new(),
+            bound: false,
+            beside_bounds: false,
             calculated: Vec::new(),
             statuses: StatusItems::default(),
             record: Vec::new(),

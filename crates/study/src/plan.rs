@@ -107,7 +107,7 @@ pub struct Plan {
     pub requirements: Vec<Requirement>,
 }
 
-/// Name in `filters` that stands for every filter of fmu-nav that has a meaning in the world.
+/// Name in `filters` that stands for every filter of fmu-nav that has a meaning in the world, but for its bounds.
 pub const ALL: &str = "all";
 
 /// Where runs are made: in the process of the study, or in others that may die of an FMU.

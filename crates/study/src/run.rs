@@ -7,6 +7,7 @@ use cosim::{Causality, RunOptions, Scheme, SlaveId, StepContext, System, Value};
 
 use crate::error::{StudyError, chain};
 use crate::history::History;
+use crate::models::OF_TRUTH;
 use crate::participant::Participant;
 use crate::readers::{CalculatedReader, EstimateReader, MeasurementReader, TruthReader, units_unsaid};
 use crate::samples::{Estimate, SAME_TIME, TruthSample};
@@ -87,10 +88,11 @@ fn couple(spec: &Spec, run: u32) -> Result<Coupled, StudyError> {
     let mut seated = Vec::new();
     for (placed, filter) in placed.into_iter().zip(&spec.filters) {
         let fed = placed.and_then(|id| {
-            if !spec.allow_truth {
+            let fed = filter.bound || spec.allow_truth;
+            if !fed && !filter.beside_bounds {
                 keep_from_the_truth(&system, id, filter)?;
             }
-            system.connect_by_name_from(truth, id)?;
+            system.connect_by_name_where(truth, id, |name| fed || !name.starts_with(OF_TRUTH))?;
             Ok(id)
         });
         seated.push(fed);
@@ -109,7 +111,8 @@ fn couple(spec: &Spec, run: u32) -> Result<Coupled, StudyError> {
         let id = seated?;
         if let Some(open) = unconnected
             .iter()
-            .find(|u| u.slave == id && u.input.starts_with("nav_init."))
+            .filter(|u| u.slave == id)
+            .find(|u| u.input.starts_with("nav_init.") || (filter.bound && u.input.starts_with(OF_TRUTH)))
         {
             return Err(StudyError::MissingInput {
                 label: filter.label.clone(),
@@ -166,7 +169,7 @@ fn keep_from_the_truth(system: &System, id: SlaveId, filter: &Participant) -> Re
     let truth = system
         .unconnected_inputs()
         .into_iter()
-        .find(|open| open.slave == id && open.input.starts_with("truth."));
+        .find(|open| open.slave == id && open.input.starts_with(OF_TRUTH));
     truth.map_or(Ok(()), |open| {
         Err(StudyError::AsksForTruth {
             label: filter.label.clone(),
@@ -217,8 +220,11 @@ pub fn rehearse(spec: &Spec) -> Result<Vec<String>, StudyError> {
     }
     let mut coupled = couple(spec, 0)?;
     let mut seats = coupled.drivers;
-    for seat in coupled.seats {
-        seats.push(seat?.id);
+    let mut beside_bounds = Vec::new();
+    for (seat, filter) in coupled.seats.into_iter().zip(&spec.filters) {
+        let id = seat?.id;
+        seats.push(id);
+        beside_bounds.extend(filter.beside_bounds.then_some(id));
     }
     let report = coupled
         .system
@@ -233,7 +239,8 @@ pub fn rehearse(spec: &Spec) -> Result<Vec<String>, StudyError> {
         .system
         .unconnected_inputs()
         .into_iter()
-        .filter(|u| seats.contains(&u.slave));
+        .filter(|u| seats.contains(&u.slave))
+        .filter(|u| !(beside_bounds.contains(&u.slave) && u.input.starts_with(OF_TRUTH)));
     let told = open.map(|u| format!("nothing feeds {}: {}; it keeps its start value", u.slave_name, u.input));
     let unsaid = seats.iter().filter_map(|filter| {
         let names = units_unsaid(&coupled.system, coupled.truth, *filter, spec.world.frame);

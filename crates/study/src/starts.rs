@@ -157,6 +157,8 @@ impl<'a> StartValues<'a> {
                 .map(|(name, value)| (self.model.contract_name(name).to_owned(), value.clone()))
                 .collect(),
             varied: Vec::new(),
+            bound: false,
+            beside_bounds: !self.model.filters.bounds.is_empty(),
             calculated: self.model.calculated(),
             statuses: self.model.statuses(),
         }

@@ -65,8 +65,8 @@ impl Study {
     pub fn run(&self, engine: Engine<'_>, mut finished: impl FnMut(u32, &[RunRow])) -> Result<StudyResult, StudyError> {
         let begin = Instant::now();
         let layout = self.spec.layout();
-        let labels = self.spec.filters.iter().map(|f| &f.label);
-        let mut filters: Vec<_> = labels.map(|label| FilterResult::new(label, &layout)).collect();
+        let empty = |filter| FilterResult::of(filter, &layout);
+        let mut filters: Vec<_> = self.spec.filters.iter().map(empty).collect();
         let mut path = Vec::new();
         self.each(&Shard::WHOLE.runs(self.runs), engine, |outcome| {
             if outcome.run == 0 {

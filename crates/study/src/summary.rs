@@ -19,6 +19,8 @@ pub struct Summary {
     pub scenario: String,
     /// Filter with its preset.
     pub filter: String,
+    /// Whether it is a bound, told by the truth, and no filter.
+    pub bound: bool,
     /// Case.
     pub case: String,
     /// Runs asked for.
@@ -118,6 +120,7 @@ impl Summary {
         Self {
             scenario: scenario.to_owned(),
             filter: result.label.clone(),
+            bound: result.bound,
             case: case.to_owned(),
             runs: u32::try_from(result.runs.len()).unwrap_or(u32::MAX),
             failed: result.failed(),

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use astro::{Cr3bpSystem, frames};
 use interface::Mission;
+use interface::mission;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::arguments::FilterChoice;
@@ -140,9 +141,10 @@ impl Frame {
     /// As a mission's `navigation.frame` says it.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Inertial => "inertial",
-            Self::Lvlh => "lvlh",
+            Self::Inertial => mission::Frame::Inertial,
+            Self::Lvlh => mission::Frame::Lvlh,
         }
+        .name()
     }
 
     /// What truth and filter call the quantities that are compared.

@@ -39,12 +39,12 @@ fn write_fmu(folder: &Path, name: &str, variables: &str) -> PathBuf {
   <CoSimulation modelIdentifier="m"/>
   <TypeDefinitions>
     <SimpleType name="Scenario"><Enumeration><Item name="leo_venting" value="1"/></Enumeration></SimpleType>
-    <SimpleType name="Filter"><Enumeration><Item name="fixed_q" value="1"/><Item name="milton" value="2"/><Item name="observer" value="3"/></Enumeration></SimpleType>
+    <SimpleType name="Filter"><Enumeration><Item name="fixed_q" value="1"/><Item name="milton" value="2"/><Item name="observer" value="3"/><Item name="oracle" value="4"/></Enumeration></SimpleType>
     <SimpleType name="Mode"><Enumeration><Item name="diverged" value="1"/><Item name="asleep" value="2"/><Item name="tracking" value="3"/></Enumeration></SimpleType>
   </TypeDefinitions>
   <VendorAnnotations><Tool name="trade-harness"><Filters><Presets>
     <Preset filter="milton" name="short" about="a short buffer"><Set variable="milton.m_b" value="5"/><Set variable="milton.whiten" value="true"/></Preset>
-  </Presets><Meaning><Only filter="observer" scenarios="formation" why="it needs the state measured in full"/></Meaning></Filters></Tool></VendorAnnotations>
+  </Presets><Meaning><Only filter="observer" scenarios="formation" why="it needs the state measured in full"/></Meaning><Bounds><Bound filter="oracle"/></Bounds></Filters></Tool></VendorAnnotations>
   <ModelVariables>{variables}</ModelVariables>
   <ModelStructure/>
 </fmiModelDescription>"#
@@ -366,6 +366,8 @@ fn all_filters_at_once() {
     );
     assert_eq!(labels(&["all", "milton@short"]), ["fixed_q", "milton", "milton@short"]);
     assert_eq!(labels(&["milton", "all"]), ["milton", "fixed_q"]);
+    // A bound is asked for by its name.
+    assert_eq!(labels(&["all", "oracle"]), ["fixed_q", "milton", "oracle"]);
 }
 
 /// What is set in vain everywhere is refused, in one world of several a note; so is a tuned set under other conditions.

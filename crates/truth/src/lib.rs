@@ -26,6 +26,7 @@ mod sampling;
 mod simulation;
 mod start;
 mod timeline;
+mod untold;
 mod vehicles;
 mod world;
 
@@ -36,4 +37,5 @@ pub use relative::Relative;
 pub use sampling::{AccelerometerSample, SensorSample};
 pub use simulation::{Inputs, Moment, Simulation};
 pub use timeline::{Event, Push, Side, Thrust, Timeline, Turning, Vector};
+pub use untold::Untold;
 pub use vehicles::Vehicles;

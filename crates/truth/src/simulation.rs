@@ -15,6 +15,7 @@ use crate::initial::{draw_estimate, draw_measurement};
 use crate::overrides::Run;
 use crate::sampling::{Scene, Sensors};
 use crate::start::start;
+use crate::untold::Untold;
 use crate::world::World;
 use crate::{Params, Push, Relative, SensorSample, Timeline, TruthError, Vehicles};
 
@@ -154,6 +155,7 @@ pub struct Simulation {
     /// What acts over the present interval and never stops.
     unmodelled: Unmodelled,
     felt: Felt,
+    untold: Untold,
     /// Inputs that act over the present interval, once it has been entered.
     latched: Option<Inputs>,
     sensors: Sensors,
@@ -210,6 +212,7 @@ impl Simulation {
             bias,
             unmodelled,
             felt: Felt::default(),
+            untold: Untold::default(),
             latched: None,
             sensors,
             sample,
@@ -320,8 +323,10 @@ impl Simulation {
         while self.interval < interval {
             let push = self.push(self.latched.as_ref().unwrap_or(inputs));
             let until = (self.interval + 1) as f64 * grid;
-            let felt_from = self.felt_from();
+            let (felt_from, from) = (self.felt_from(), self.state);
             self.world.step(&mut self.sky, &mut self.state, &push, grid);
+            let begin = self.interval as f64 * grid;
+            self.untold = (self.untold).after(&self.world, &push, begin, grid, [&from, &self.state]);
             if let Some(begin) = felt_from {
                 let end = self.state;
                 self.feel(&push, &begin, until, &end);
@@ -370,6 +375,8 @@ impl Simulation {
         let scene = scene(&self.world, self.sensors.measure_in_lvlh(), instant, mean);
         let time = self.start_time + elapsed;
         self.sensors.sample(&mut self.sample, time, elapsed, &scene);
+        let (begin, path) = (elapsed - offset, [&self.state, &instant.state]);
+        self.sample.untold = (self.untold).after(&self.world, &instant.push, begin, offset, path);
     }
 
     /// State up to which the specific force has been summed, where the accelerometer measures its mean.
@@ -405,7 +412,7 @@ impl Simulation {
             return;
         }
         let felt = |t: f64, state: &Vehicles| self.world.specific_force(t, state, push);
-        let half = felt(from + 0.5 * length, &half_way(begin, end, length));
+        let half = felt(from + 0.5 * length, &begin.half_way(end, length));
         self.felt.impulse += (felt(from, begin) + half * 4.0 + felt(until, end)) * (length / 6.0);
         self.felt.until = until;
     }
@@ -426,22 +433,6 @@ fn reference(mission: &Mission, world: &World, state: &Vehicles, in_lvlh: bool) 
     let osculating = || (2.0 / state.r_t.norm() - state.v_t.norm_squared() / mu).recip().abs();
     let a = mission.navigation().reference_orbit_a_m.unwrap_or_else(osculating);
     Some(ClohessyWiltshire::from_semi_major_axis(a, mu))
-}
-
-/// State half way between two, from the cubic through both.
-fn half_way(a: &Vehicles, b: &Vehicles, h: f64) -> Vehicles {
-    let position = |r: [&Vector3<f64>; 2], v: [&Vector3<f64>; 2]| (r[0] + r[1]) * 0.5 + (v[0] - v[1]) * (h / 8.0);
-    let velocity = |r: [&Vector3<f64>; 2], v: [&Vector3<f64>; 2]| (r[1] - r[0]) * (1.5 / h) - (v[0] + v[1]) * 0.25;
-    let (target, chaser) = (
-        ([&a.r_t, &b.r_t], [&a.v_t, &b.v_t]),
-        ([&a.r_c, &b.r_c], [&a.v_c, &b.v_c]),
-    );
-    Vehicles {
-        r_t: position(target.0, target.1),
-        v_t: velocity(target.0, target.1),
-        r_c: position(chaser.0, chaser.1),
-        v_c: velocity(chaser.0, chaser.1),
-    }
 }
 
 /// What the outputs show of an instant.

@@ -48,6 +48,8 @@ impl Turning {
 pub struct Push {
     /// On the target.
     pub target: Thrust,
+    /// Of that, what filters are told of.
+    pub announced: Thrust,
     /// On the chaser.
     pub chaser: Thrust,
     /// Whether something that no filter is told of pushes the target: a vent, a burn, an input.
@@ -116,15 +118,18 @@ impl Event {
         let share = self.profile.mean(begin - self.start, length, self.duration);
         let of_target = self.side == Side::Target;
         push.unannounced |= of_target && !self.told && share != 0.0 && !self.acceleration.is_zero();
-        let thrust = match self.side {
-            Side::Target => &mut push.target,
-            Side::Chaser => &mut push.chaser,
-        };
-        match &self.acceleration {
+        let add = |thrust: &mut Thrust| match &self.acceleration {
             Vector::N(a) => thrust.n += a * share,
             Vector::Inertial(a) => thrust.n += n_from_inertial(a) * share,
             Vector::Body(a) => thrust.turning.get_or_insert_default().body += a * share,
             Vector::Rtn(a) => thrust.turning.get_or_insert_default().rtn += a * share,
+        };
+        add(match self.side {
+            Side::Target => &mut push.target,
+            Side::Chaser => &mut push.chaser,
+        });
+        if of_target && self.told {
+            add(&mut push.announced);
         }
     }
 }

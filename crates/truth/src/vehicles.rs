@@ -27,6 +27,24 @@ impl Vehicles {
         self.v_t - self.v_c
     }
 
+    /// State half way to another, from the cubic through both.
+    ///
+    /// * `h`: time between them, s.
+    pub(crate) fn half_way(&self, to: &Self, h: f64) -> Self {
+        let position = |r: [&Vector3<f64>; 2], v: [&Vector3<f64>; 2]| (r[0] + r[1]) * 0.5 + (v[0] - v[1]) * (h / 8.0);
+        let velocity = |r: [&Vector3<f64>; 2], v: [&Vector3<f64>; 2]| (r[1] - r[0]) * (1.5 / h) - (v[0] + v[1]) * 0.25;
+        let (target, chaser) = (
+            ([&self.r_t, &to.r_t], [&self.v_t, &to.v_t]),
+            ([&self.r_c, &to.r_c], [&self.v_c, &to.v_c]),
+        );
+        Self {
+            r_t: position(target.0, target.1),
+            v_t: velocity(target.0, target.1),
+            r_c: position(chaser.0, chaser.1),
+            v_c: velocity(chaser.0, chaser.1),
+        }
+    }
+
     /// The same twelve numbers, ordered as the fields, for an integrator.
     #[inline]
     pub fn to_vector(self) -> SVector<f64, 12> {

@@ -121,6 +121,13 @@ impl World {
         }
     }
 
+    /// Acceleration of the target that no filter is told of, axes N, m/s2.
+    ///
+    /// * `t`: s since the start of the run.
+    pub(crate) fn untold_on_target(&self, t: f64, state: &Vehicles, push: &Push) -> Vector3<f64> {
+        self.push_on_target(t, state, &push.target) - self.push_on_target(t, state, &push.announced)
+    }
+
     /// Acceleration of the chaser by `thrust`, axes N, m/s2.
     ///
     /// * `t`: s since the start of the run.

@@ -7,7 +7,7 @@ use astro::{Elements, Lvlh, frames};
 use common::{File, advance, changed, quiet, scenarios, start};
 use interface::mission::{EMBEDDED, embedded};
 use nalgebra::Vector3;
-use truth::{Params, Simulation, Vehicles};
+use truth::{Params, SensorSample, Simulation, Untold, Vehicles};
 
 const RADIO: &str = "[sensors.radio]\nperiod_s = 10.0\n";
 const MU: f64 = 3.986e14;
@@ -215,7 +215,18 @@ fn told_burns_are_told_to_the_filter_and_fly_alike() {
     };
     let (told, silent) = (of(true), of(false));
     assert_eq!((told.0, silent.0), (1, 0));
-    assert_eq!((told.1, told.2), (silent.1, silent.2));
+    // But for what is said of it to whom.
+    let given = silent.2.untold;
+    let sample = SensorSample {
+        untold: given,
+        ..told.2
+    };
+    assert_eq!((told.1, sample), (silent.1, silent.2));
+    assert_eq!(told.2.untold, Untold::default());
+    assert!(
+        (given.dv_t_n - Vector3::new(0.0, 0.03, 0.0)).amax() < 1e-15 && given.event_time == 3.0,
+        "{given:?}"
+    );
 }
 
 #[test]

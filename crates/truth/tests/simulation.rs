@@ -472,3 +472,51 @@ fn what_no_filter_is_told_of_is_said_while_it_pushes_the_target() {
     run.advance_to(2001.0, &shove()).unwrap();
     assert!(run.now().event_active);
 }
+
+/// Sums of what the truth itself says acts, in steps of a tenth of a grid interval: by another rule than the sums that bounds are
+/// told, which follow what turns with the vehicle by Simpson's.
+#[test]
+fn a_bound_is_told_the_velocity_that_was_given_and_how_long_it_took() {
+    for scenario in [1, 2] {
+        let set = [
+            ("vent.scale", 1e3),
+            ("unmodelled.wander_sigma", 1e-5),
+            ("sample_period", 0.5),
+            ("target_burn.start", 20.3),
+            ("target_burn.duration", 7.0),
+            ("target_burn.a_t_n[2]", 1e-2),
+        ];
+        let mut run = start(&with(&numbered(Params::of_scenario(scenario), 4), &set));
+        let quiet = Inputs::default();
+        let first_vent = (run.timeline().events().iter())
+            .find(|e| !e.told && e.side == truth::Side::Target && e.duration < 100.0)
+            .unwrap()
+            .start;
+        let (mut given, mut time, mut sampled) = (Vector3::zeros(), 0.0, 0);
+        let steps = 10 * (first_vent.max(30.0).ceil() as u32 + 40);
+        for k in 0..steps {
+            let input = if k >= 300 { shove() } else { quiet };
+            // The middle of a step; inputs act from the grid point on which they are set.
+            let middle = 0.1 * f64::from(k) + 0.05;
+            run.advance_to(middle, &input).unwrap();
+            given += run.now().a_t_n * 0.1;
+            time += if run.now().event_active { 0.1 } else { 0.0 };
+            if k % 5 == 4 {
+                run.advance_to(middle + 0.05, &input).unwrap();
+                let untold = run.sample().untold;
+                let miss = (untold.dv_t_n - given).amax();
+                // The direction of a vent follows the line of sight, which turns by less than 1e-2 rad/s.
+                assert!(
+                    miss < 1e-6 * given.amax().max(1e-3),
+                    "{scenario}, {middle} s: {miss} of {given}"
+                );
+                assert!(
+                    (untold.event_time - time).abs() < 1e-9,
+                    "{scenario}, {middle} s: {untold:?}, {time} s"
+                );
+                sampled += 1;
+            }
+        }
+        assert!(given.norm() > 0.05 && sampled * 5 == steps, "{given}");
+    }
+}

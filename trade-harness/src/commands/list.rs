@@ -160,7 +160,7 @@ fn filters(nav: &ModelDescription, name: Option<&str>, out: &mut Out<'_>) -> Res
         let presets = told.presets_of(&item.name).map(|p| p.name.as_str());
         let own = parameters(nav).filter(|v| prefix(&v.name) == item.name);
         said.push(json!({
-            "name": item.name, "about": item.description, "presets": presets.collect::<Vec<_>>(),
+            "name": item.name, "about": item.description, "bound": told.is_bound(&item.name), "presets": presets.collect::<Vec<_>>(),
             "parameters": own.map(variable_json).collect::<Vec<_>>(),
         }));
     }

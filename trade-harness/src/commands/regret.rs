@@ -12,8 +12,8 @@ use crate::HarnessError;
 use crate::cli::RegretArgs;
 use crate::format::{json_bytes, wrapped};
 use crate::output::OutputFolder;
-use crate::regret::levels::{Family, Level, Levels, OWN};
-use crate::regret::{LEGEND, Options, Row, Trial, Tried, markdown, render, table, told};
+use crate::regret::levels::{Level, Levels, OWN};
+use crate::regret::{Kind, LEGEND, Options, Row, Trial, Tried, markdown, render, table, told};
 use crate::store::identity;
 
 /// Laws that are tried unless others are asked for.
@@ -71,7 +71,7 @@ pub(super) fn regret(args: &RegretArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
             ..plan.clone()
         };
         for world in at.worlds(folder.path())?.into_iter().filter(|w| level.is_for(&w.name)) {
-            cases.push(Case::new(&models, &at, level, world, &levels.families)?);
+            cases.push(Case::new(&models, &at, level, world, &levels)?);
         }
     }
     if cases.is_empty() {
@@ -150,26 +150,30 @@ struct Case {
 }
 
 impl Case {
-    fn new(
-        models: &Models,
-        plan: &Plan,
-        level: &Level,
-        world: World,
-        families: &[Family],
-    ) -> Result<Self, HarnessError> {
+    fn new(models: &Models, plan: &Plan, level: &Level, world: World, levels: &Levels) -> Result<Self, HarnessError> {
         models.check_effects(plan, std::slice::from_ref(&world))?;
         let spec = models.spec(plan, &world)?;
         for text in rehearse(&spec)? {
             note(&format!("note: {}, {}: {text}", world.name, level.name));
         }
-        let mut fixed = Vec::new();
-        for family in families {
+        let fixed = levels.families.iter().map(|family| (Kind::Fixed, family));
+        let bounds = levels.bounds.iter().map(|family| (Kind::Bound, family));
+        let mut families = Vec::new();
+        for (kind, family) in fixed.chain(bounds) {
+            let nav = models.require(NAV, &family.filter)?;
+            let meant = |name| {
+                nav.filters
+                    .without_meaning(name, &world.name, world.frame.name())
+                    .is_none()
+            };
+            if kind == Kind::Bound && !meant(&family.filter) {
+                continue;
+            }
             let alone = Plan {
                 filters: Some(family.filter.parse().ok().into_iter().collect()),
                 ..plan.clone()
             };
             let base = models.spec(&alone, &world)?.filters.into_iter().next();
-            let nav = models.require(NAV, &family.filter)?;
             for (tunable, values) in &family.values {
                 check_real_range(nav, &format!("{}.{tunable}", family.filter), values)?;
             }
@@ -185,10 +189,12 @@ impl Case {
                 }
                 Some(member)
             });
-            fixed.push(members.collect::<Vec<_>>());
+            families.push((kind, members.collect::<Vec<_>>()));
         }
         let mut whole = spec.subset(&(0..spec.filters.len()).collect::<Vec<_>>());
-        whole.filters.extend(fixed.iter().flatten().cloned());
+        whole
+            .filters
+            .extend(families.iter().flat_map(|(_, members)| members).cloned());
         let study = Study {
             spec: whole,
             runs: plan.runs,
@@ -199,7 +205,7 @@ impl Case {
             identity: identity(&[study], models)?,
             world: world.name,
             level: level.name.clone(),
-            trial: Trial { spec, families: fixed },
+            trial: Trial { spec, families },
         })
     }
 

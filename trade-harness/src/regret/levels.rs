@@ -12,7 +12,7 @@ use crate::HarnessError;
 /// The file that comes with the project.
 pub const OWN: &str = include_str!("levels.toml");
 
-/// Levels of disturbance, and the filters of constant noise.
+/// Levels of disturbance, the filters of constant noise, and the bounds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Levels {
@@ -22,6 +22,9 @@ pub struct Levels {
     /// The best of all of them, in hindsight, is what laws are held against.
     #[serde(rename = "fixed")]
     pub families: Vec<Family>,
+    /// What no law can pass, of each the best in hindsight.
+    #[serde(rename = "bound", default)]
+    pub bounds: Vec<Family>,
 }
 
 /// A level of disturbance.
@@ -106,11 +109,13 @@ impl Levels {
                 return Err(wrong(format!("there are two levels '{}'", level.name)));
             }
         }
-        for family in &levels.families {
+        let fixed = levels.families.iter().map(|family| ("fixed", family));
+        let bounds = levels.bounds.iter().map(|family| ("bound", family));
+        for (kind, family) in fixed.chain(bounds) {
             let all = family.values.values().flatten();
             if family.values.is_empty() || family.members().is_empty() || !all.clone().all(|v| v.is_finite()) {
                 let text = format!(
-                    "[[fixed]] of '{}' has no values: give values = {{ TUNABLE = [...] }}",
+                    "[[{kind}]] of '{}' has no values: give values = {{ TUNABLE = [...] }}",
                     family.filter
                 );
                 return Err(wrong(text));
@@ -139,6 +144,8 @@ mod tests {
             dmc.values["sigma"].len() * dmc.values["time_constant"].len()
         );
         assert!(dmc.members().iter().all(|member| member.len() == 2));
+        let bounds: Vec<_> = own.bounds.iter().map(|bound| bound.filter.as_str()).collect();
+        assert_eq!(bounds, ["clairvoyant", "times_known"]);
     }
 
     #[test]
@@ -154,6 +161,10 @@ mod tests {
             (
                 "[[level]]\nname = \"a\"\n[[fixed]]\nfilter = \"snc\"\nvalues = {}\n".to_owned(),
                 "no values",
+            ),
+            (
+                format!("[[level]]\nname = \"a\"\n{fixed}[[bound]]\nfilter = \"clairvoyant\"\nvalues = {{ q = [] }}"),
+                "[[bound]] of 'clairvoyant'",
             ),
             (format!("level = []\n{fixed}"), "at least one"),
         ] {

@@ -14,6 +14,8 @@ pub enum Kind {
     Law,
     /// Its noise is constant.
     Fixed,
+    /// It is told by the truth what no filter knows.
+    Bound,
 }
 
 impl Kind {
@@ -21,6 +23,7 @@ impl Kind {
         match self {
             Self::Law => "law",
             Self::Fixed => "fixed",
+            Self::Bound => "bound",
         }
     }
 }
@@ -32,7 +35,7 @@ pub struct Row {
     pub mission: String,
     /// Name of the level.
     pub level: String,
-    /// Label of the filter; of constant noise with its values.
+    /// Label of the filter; of a member of a family with its values.
     pub filter: String,
     /// What it is.
     pub kind: Kind,
@@ -42,8 +45,13 @@ pub struct Row {
     pub tally: Tally,
     /// The best of constant noise by position and by velocity.
     pub best: [Option<String>; 2],
-    /// RMSE of position and of velocity over that of the best.
+    /// RMSE of position and of velocity over that of the best; of a bound's family the best member has it alone.
     pub ratios: [Option<Ratio>; 2],
+}
+
+/// A label without the values of a member of a family.
+pub(super) fn family(label: &str) -> &str {
+    label.split_once('(').map_or(label, |(family, _)| family)
 }
 
 fn end(row: &Row, quantity: usize, end: usize) -> Option<f64> {
@@ -54,10 +62,14 @@ fn end(row: &Row, quantity: usize, end: usize) -> Option<f64> {
 pub const COLUMNS: &[Column<Row>] = &[
     text("mission", "mission", |r| r.mission.as_str().into()),
     text("level", "level of disturbance", |r| r.level.as_str().into()),
-    text("filter", "filter; of constant noise with its values", |r| {
+    text("filter", "filter; of a family with its values", |r| {
         r.filter.as_str().into()
     }),
-    text("kind", "law, or fixed: of constant noise", |r| r.kind.name().into()),
+    text(
+        "kind",
+        "law, fixed: of constant noise, or bound: told by the truth",
+        |r| r.kind.name().into(),
+    ),
     count("runs", "runs", |r| Some(r.runs)),
     count("failed", "runs that ended with an error", |r| {
         Some(r.tally.failed.into())
@@ -85,7 +97,7 @@ pub const COLUMNS: &[Column<Row>] = &[
     number(
         "pos_ratio",
         "1",
-        "position RMSE over that of pos_best, in the same runs",
+        "position RMSE over that of pos_best, in the same runs; of a bound's family for its best by position alone",
         |r| Some(r.ratios[0]?.value),
     ),
     number(
@@ -101,7 +113,7 @@ pub const COLUMNS: &[Column<Row>] = &[
     number(
         "vel_ratio",
         "1",
-        "velocity RMSE over that of vel_best, in the same runs",
+        "velocity RMSE over that of vel_best, in the same runs; of a bound's family for its best by velocity alone",
         |r| Some(r.ratios[1]?.value),
     ),
     number("vel_ratio_low", "1", "lower end of its 95 % interval", |r| end(r, 1, 0)),

@@ -3,11 +3,11 @@
 use serde::{Deserialize, Serialize};
 use study::{Participant, Quantity, RunTally, Spec, Tally, evaluate_each, ratio};
 
-use super::row::{Kind, Row};
+use super::row::{Kind, Row, family};
 
 /// Candidates in one run at most; each is a slave of its own beside the truth.
 const TOGETHER: usize = 32;
-/// NEES of position and velocity above which a filter of constant noise is not honest, and does not count.
+/// NEES of position and velocity above which a filter of constant noise, or a bound, is not honest, and does not count.
 pub const MOST_NEES: f64 = 1.5;
 /// Of each family, by each error, so many of the best scouts fly every run.
 const KEPT: usize = 2;
@@ -23,27 +23,29 @@ pub struct Options {
     pub jobs: usize,
 }
 
-/// Laws and filters of constant noise in one world.
+/// Laws, filters of constant noise and bounds in one world.
 #[derive(Debug)]
 pub struct Trial {
-    /// The world; its filters are the laws.
+    /// The world; its filters are the laws, and bounds that are asked for by name.
     pub spec: Spec,
-    /// Filters of constant noise, family by family.
-    pub families: Vec<Vec<Participant>>,
+    /// Filters of constant noise, and bounds, family by family.
+    pub families: Vec<(Kind, Vec<Participant>)>,
 }
 
 /// What flew every run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Tried {
-    /// Laws first.
+    /// What is asked for by name first.
     pub filters: Vec<(String, Kind, Vec<RunTally>)>,
 }
 
 impl Trial {
     /// Runs of filters that it takes at most.
     pub fn work(&self, options: &Options) -> u64 {
-        let scouts: usize = self.families.iter().map(Vec::len).sum();
-        let kept: usize = self.families.iter().map(|family| family.len().min(2 * KEPT)).sum();
+        let scouts: usize = self.families.iter().map(|(_, family)| family.len()).sum();
+        let kept: usize = (self.families.iter())
+            .map(|(_, family)| family.len().min(2 * KEPT))
+            .sum();
         u64::from(options.scouts) * scouts as u64 + u64::from(options.runs) * (self.spec.filters.len() + kept) as u64
     }
 
@@ -62,7 +64,7 @@ impl Trial {
             found
         };
         let mut chosen = Vec::new();
-        for family in &self.families {
+        for (kind, family) in &self.families {
             let scouts = fly(family, options.scouts.min(options.runs));
             let tallies: Vec<Tally> = scouts.iter().map(|runs| Tally::of(runs)).collect();
             let mut kept: Vec<usize> = [Quantity::Position, Quantity::Velocity]
@@ -71,12 +73,13 @@ impl Trial {
                 .collect();
             kept.sort_unstable();
             kept.dedup();
-            chosen.extend(kept.into_iter().map(|place| family[place].clone()));
+            chosen.extend(kept.into_iter().map(|place| (family[place].clone(), *kind)));
         }
-        let laws = self.spec.filters.iter().map(|law| (law, Kind::Law));
-        let fixed = chosen.iter().map(|filter| (filter, Kind::Fixed));
-        let (filters, kinds): (Vec<Participant>, Vec<Kind>) =
-            laws.chain(fixed).map(|(filter, kind)| (filter.clone(), kind)).unzip();
+        let asked = self.spec.filters.iter().map(|filter| {
+            let kind = if filter.bound { Kind::Bound } else { Kind::Law };
+            (filter.clone(), kind)
+        });
+        let (filters, kinds): (Vec<Participant>, Vec<Kind>) = asked.chain(chosen).unzip();
         let runs = fly(&filters, options.runs);
         let labels = filters.into_iter().map(|filter| filter.label);
         Tried {
@@ -100,14 +103,26 @@ impl Tried {
     /// * `seed`: of the study.
     pub fn rows(&self, mission: &str, level: &str, seed: i32) -> Vec<Row> {
         let tallies: Vec<Tally> = self.filters.iter().map(|(_, _, runs)| Tally::of(runs)).collect();
-        let fixed: Vec<usize> = (0..tallies.len())
-            .filter(|place| self.filters[*place].1 == Kind::Fixed)
-            .collect();
-        let of_fixed: Vec<Tally> = fixed.iter().map(|place| tallies[*place]).collect();
-        let hindsight = [Quantity::Position, Quantity::Velocity]
-            .map(|quantity| best(&of_fixed, quantity).first().map(|place| fixed[*place]));
+        // The best by each error of those that are meant.
+        let best_of = |meant: &dyn Fn(&str, Kind) -> bool| {
+            let places: Vec<usize> = (0..tallies.len())
+                .filter(|place| meant(&self.filters[*place].0, self.filters[*place].1))
+                .collect();
+            let own: Vec<Tally> = places.iter().map(|place| tallies[*place]).collect();
+            [Quantity::Position, Quantity::Velocity]
+                .map(|quantity| best(&own, quantity).first().map(|place| places[*place]))
+        };
+        let hindsight = best_of(&|_, kind| kind == Kind::Fixed);
         let row = |(place, (label, kind, runs)): (usize, &(String, Kind, Vec<RunTally>))| {
+            let shown = match kind {
+                Kind::Law | Kind::Fixed => [true; 2],
+                Kind::Bound => best_of(&|other, kind| kind == Kind::Bound && family(other) == family(label))
+                    .map(|best| best == Some(place)),
+            };
             let held = |at: usize, quantity| {
+                if !shown[at] {
+                    return None;
+                }
                 let other = &self.filters[hindsight[at]?].2;
                 ratio(runs, other, quantity, seed)
             };

@@ -24,6 +24,9 @@ pub struct Entry<'a> {
     pub notes: Vec<String>,
 }
 
+/// Note of a bound.
+const BOUND: &str = "bound, told by the truth: no rank";
+
 /// A filter's row, with its place.
 pub(crate) struct Row {
     best: Summary,
@@ -80,7 +83,7 @@ pub(crate) const COLUMNS: &[Column<Row>] = &[
 /// Every filter of one scenario, best objective first.
 #[derive(Debug, Clone)]
 pub struct Ranking<'a> {
-    /// By objective; filters that have none come last.
+    /// By objective; filters that have none come last, and bounds after them.
     pub entries: Vec<Entry<'a>>,
     /// What they are sorted by.
     pub objective: Objective,
@@ -90,13 +93,14 @@ impl<'a> Ranking<'a> {
     /// Sorts.
     pub fn new(mut entries: Vec<Entry<'a>>, objective: Objective) -> Self {
         let key = |e: &Entry<'_>| objective.of(e.best).unwrap_or(f64::INFINITY);
-        entries.sort_by(|a, b| key(a).total_cmp(&key(b)));
+        entries.sort_by(|a, b| (a.best.bound.cmp(&b.best.bound)).then(key(a).total_cmp(&key(b))));
         Self { entries, objective }
     }
 
-    /// Place of a filter by the objective, from 1; equals share a place. What it was not tuned for is no contest.
+    /// Place of a filter by the objective, from 1; equals share a place. What it was not tuned for is no contest, and a bound
+    /// takes no part.
     fn rank(&self, entry: &Entry<'_>) -> Option<usize> {
-        let of = |e: &Entry<'_>| self.objective.of(e.best);
+        let of = |e: &Entry<'_>| self.objective.of(e.best).filter(|_| !e.best.bound);
         let own = of(entry)?;
         let better = |e: &&Entry<'_>| of(e).is_some_and(|other| other < own);
         Some(1 + self.entries.iter().filter(better).count())
@@ -109,7 +113,10 @@ impl<'a> Ranking<'a> {
             rank: self.rank(e),
             given: e.given.and_then(|g| self.objective.of(g)),
             tuned: e.tuned.clone(),
-            notes: e.notes.join("; "),
+            notes: (e.best.bound.then_some(BOUND).into_iter())
+                .chain(e.notes.iter().map(String::as_str))
+                .collect::<Vec<_>>()
+                .join("; "),
         })
     }
 

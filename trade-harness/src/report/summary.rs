@@ -357,6 +357,11 @@ pub const COLUMNS: &[Column<Summary>] = &[
         |s| s.ranks[0].map(u64::from),
     ),
     count("rank_vel", "the same by vel_rmse_m_s", |s| s.ranks[1].map(u64::from)),
+    text(
+        "kind",
+        "filter, or bound: told by the truth what no filter knows, and without a rank",
+        |s| if s.bound { "bound" } else { "filter" }.into(),
+    ),
 ];
 
 /// The number in a column; `None` where the cell is empty, holds text or does not exist.

@@ -57,15 +57,40 @@ const LONGEST: usize = 19;
 
 /// The table of one world, without a final newline; it fits 80 columns.
 pub fn render(rows: &[Summary]) -> String {
-    let cells = rows.iter().map(|row| {
+    let cells = bounds_last(rows).map(|row| {
         let shown = SHOWN.iter().filter_map(|(_, name)| find(COLUMNS, name));
         let mut cells: Vec<String> = shown.map(|c| c.cell(row).short()).collect();
         if let Some(label) = cells.first_mut() {
-            *label = shortened(label, LONGEST);
+            *label = marked(shortened(label, LONGEST - BOUND.len()), row);
         }
         cells
     });
-    plain_table(SHOWN.iter().map(|(heading, _)| *heading), 1, cells)
+    plain_table(SHOWN.iter().map(|(heading, _)| *heading), 1, cells) + legend_of_bounds(rows)
+}
+
+/// Filters, then what is none.
+fn bounds_last(rows: &[Summary]) -> impl Iterator<Item = &Summary> {
+    let (bounds, filters): (Vec<&Summary>, Vec<&Summary>) = rows.iter().partition(|row| row.bound);
+    filters.into_iter().chain(bounds)
+}
+
+/// After the label of a bound.
+const BOUND: &str = " *";
+
+/// What it means, below a table that has one.
+const BOUND_LEGEND: &str = "\n* bound, told by the truth what no filter knows: it has no place among them";
+
+/// The label of a row as tables show it.
+fn marked(label: String, row: &Summary) -> String {
+    if row.bound { label + BOUND } else { label }
+}
+
+fn legend_of_bounds(rows: &[Summary]) -> &'static str {
+    if rows.iter().any(|row| row.bound) {
+        BOUND_LEGEND
+    } else {
+        ""
+    }
 }
 
 /// A label without its middle, where it has more letters than this.
@@ -80,16 +105,19 @@ pub(super) fn shortened(label: &str, longest: usize) -> String {
 
 /// The table with all columns.
 pub fn render_wide(rows: &[Summary], timings: &[TimingRow]) -> String {
-    let cells = rows.iter().map(|row| {
+    let cells = bounds_last(rows).map(|row| {
         let same = |t: &&TimingRow| t.scenario == row.scenario && t.filter == row.filter && t.case == row.case;
         let timing = timings.iter().find(same);
         let shown = WIDE.iter().filter_map(|(_, name)| find(COLUMNS, name));
         let mut cells: Vec<String> = shown.map(|c| c.cell(row).short()).collect();
+        if let Some(label) = cells.first_mut() {
+            *label = marked(std::mem::take(label), row);
+        }
         cells.push(number(timing.map(|t| t.nav_us_per_step)));
         cells.push(timing.map_or_else(|| number(None), |t| format!("{:.1}", 100.0 * t.fmi_share)));
         cells
     });
-    plain_table(WIDE.iter().map(|(heading, _)| *heading).chain(COST), 1, cells)
+    plain_table(WIDE.iter().map(|(heading, _)| *heading).chain(COST), 1, cells) + legend_of_bounds(rows)
 }
 
 /// RMSE, ratio of sigmas on each axis, and coverage of each quantity of one world, without a final newline.
@@ -102,13 +130,13 @@ pub fn render_axes(rows: &[Summary], axes: [&str; 3]) -> String {
     header.push("standard error\nof the norm".to_owned());
     header.extend(axes.map(|axis| format!("ratio\n{axis}")));
     header.push("inside\n3 sigma [%]".to_owned());
-    for row in rows {
+    for row in bounds_last(rows) {
         for (name, errors) in [
             ("pos [m]", &row.position),
             ("vel [m/s]", &row.velocity),
             ("acc [m/s2]", &row.acceleration),
         ] {
-            let mut cells = vec![row.filter.clone(), name.to_owned()];
+            let mut cells = vec![marked(row.filter.clone(), row), name.to_owned()];
             cells.extend(errors.rmse_axes.map(number));
             cells.push(number(errors.rmse_error));
             cells.extend(errors.ratio_axes.map(number));
@@ -117,7 +145,7 @@ pub fn render_axes(rows: &[Summary], axes: [&str; 3]) -> String {
             table.push(cells);
         }
     }
-    plain_table(header, 2, table)
+    plain_table(header, 2, table) + legend_of_bounds(rows)
 }
 
 #[cfg(test)]
@@ -168,6 +196,24 @@ mod tests {
         assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
         assert!(text.contains('…'), "{text}");
         assert!(LEGEND.lines().all(|line| line.chars().count() <= 80));
+    }
+
+    #[test]
+    fn bounds_stand_below_the_filters_and_are_marked() {
+        let told = Summary {
+            bound: true,
+            ..row("clairvoyant", None)
+        };
+        for text in [
+            render(&[told.clone(), row("snc", None)]),
+            render_wide(&[told.clone(), row("snc", None)], &[]),
+            render_axes(&[told.clone(), row("snc", None)], ["x", "y", "z"]),
+        ] {
+            let [snc, bound] = ["snc", "clairvoyant *"].map(|label| text.find(label));
+            assert!(snc.is_some() && snc < bound, "{text}");
+            assert!(text.ends_with(BOUND_LEGEND) && BOUND_LEGEND.len() <= 81);
+        }
+        assert!(!render(&[row("snc", None)]).contains('*'));
     }
 
     #[test]

@@ -98,10 +98,11 @@ pub fn contenders(
     }
 }
 
-/// Every filter of fmu-nav, and the presets that no search of numbers finds: the other reading of a law.
+/// Every filter of fmu-nav but its bounds, and the presets that no search of numbers finds: the other reading of a law.
 pub fn every_filter(models: &Models) -> Vec<FilterChoice> {
     let items = models.nav.iter().flat_map(|nav| nav.description().items("filter"));
-    let filters = items.map(|item| item.name.clone());
+    let bound = |name: &str| models.nav.as_ref().is_some_and(|nav| nav.filters.is_bound(name));
+    let filters = items.map(|item| item.name.clone()).filter(|name| !bound(name));
     let presets = models.nav.iter().flat_map(|nav| &nav.filters.presets);
     let presets = presets.filter(|p| p.other_reading);
     let labels = filters.chain(presets.map(|p| format!("{}@{}", p.filter, p.name)));

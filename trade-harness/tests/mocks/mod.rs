@@ -143,6 +143,8 @@ fn participant(label: &str, truth: bool, quirk: Quirk) -> Participant {
         aliases: Vec::new(),
         starts: Vec::new(),
         varied: Vec::new(),
+        bound: false,
+        beside_bounds: false,
         calculated: Vec::new(),
         statuses: StatusItems::default(),
         record: Vec::new(),

@@ -387,6 +387,7 @@ impl Estimator for InertialState {
             .unwrap_or_default();
         let mut drive = Drive {
             thrust: driven.thrust,
+            told_t_n: law.announced(),
             ..Drive::default()
         };
         let mut t = gap.from_s - gap.start_s;
@@ -397,7 +398,7 @@ impl Estimator for InertialState {
                 let (target, chaser) = places(&core.x, &self.units, self.rotating.as_ref());
                 let dcm_n_bc = sample.dcm_bc_n.transpose();
                 let (target, chaser) = self.told.at(middle, Some((&target, &chaser)), &dcm_n_bc);
-                drive.told_t_n = target / self.units.acceleration();
+                drive.told_t_n = law.announced() + target / self.units.acceleration();
                 drive.told_c_n = chaser / self.units.acceleration();
             }
             let dt = length / self.units.time;

@@ -57,6 +57,15 @@ impl Step {
     }
 }
 
+/// What a bound is told of the interval up to a sample, before it is propagated over; internal units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hindsight {
+    /// Mean of the target's unannounced acceleration, axes N.
+    pub a_t_n: Vector3<f64>,
+    /// Share of the interval in which an unannounced event pushed the target, 0 to 1.
+    pub active: f64,
+}
+
 /// A law plugged into the filter.
 pub trait Adaptation {
     /// How the acceleration state behaves.
@@ -75,6 +84,14 @@ pub trait Adaptation {
     /// Acceleration that acts on the relative state until the next sample, with its partials; internal units.
     fn disturbance(&self) -> Option<&Disturbance> {
         None
+    }
+
+    /// Takes note of what no filter knows; of filters that are bounds alone.
+    fn hear(&mut self, _truth: &Hindsight) {}
+
+    /// Acceleration of the target up to the next sample as if it had been announced, axes N, internal units.
+    fn announced(&self) -> Vector3<f64> {
+        Vector3::zeros()
     }
 
     /// Learns from a processed sample.
@@ -151,6 +168,12 @@ macro_rules! one_of_laws {
             }
             fn disturbance(&self) -> Option<&$crate::disturbance::Disturbance> {
                 self.inner().disturbance()
+            }
+            fn hear(&mut self, truth: &$crate::laws::Hindsight) {
+                self.inner_mut().hear(truth);
+            }
+            fn announced(&self) -> ::nalgebra::Vector3<f64> {
+                self.inner().announced()
             }
             fn observe(&mut self, step: &$crate::laws::Step) -> Result<(), $crate::error::FilterError> {
                 self.inner_mut().observe(step)

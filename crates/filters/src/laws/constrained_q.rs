@@ -27,6 +27,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     motion: Motion::OfFrame,
     update: Update::Kalman,
     edits: true,
+    bound: false,
     tunables: &[
         Tunable {
             name: "law",

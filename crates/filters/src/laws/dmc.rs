@@ -16,6 +16,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     motion: Motion::OfFrame,
     update: Update::Kalman,
     edits: false,
+    bound: false,
     tunables: &[
         Tunable {
             name: "sigma",

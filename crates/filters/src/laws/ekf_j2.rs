@@ -16,6 +16,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     motion: Motion::J2,
     update: Update::Kalman,
     edits: false,
+    bound: false,
     tunables: &[Q_POSITION, Q_VELOCITY],
     presets: &[Preset {
         name: "paper",

@@ -48,6 +48,8 @@ pub struct FilterEntry {
     pub update: Update,
     /// Whether it looks for outliers unless told otherwise; what reproduces a paper does not.
     pub edits: bool,
+    /// Whether it is no filter but a bound: told by the truth what nothing on board knows, to hold laws against.
+    pub bound: bool,
     /// Parameters it offers.
     pub tunables: &'static [Tunable],
     /// Named sets; the first is always `paper`.
@@ -57,10 +59,16 @@ pub struct FilterEntry {
 }
 
 impl FilterEntry {
-    /// Why the filter has a meaning in the LVLH frame alone, where the state is measured in full; `None` when it has one
-    /// everywhere.
-    pub fn lvlh_alone(&self) -> Option<&'static str> {
-        match (self.motion, self.update) {
+    /// The frame in which alone the filter has a meaning, and why; `None` when it has one in both.
+    pub fn alone_in(&self) -> Option<(Frame, &'static str)> {
+        if self.bound {
+            return Some((
+                Frame::Inertial,
+                "it is told what pushes the target; in the target's LVLH frame what dynamics leave out is gravity's above all, hangs on \
+                 the state, and is what ekf_j2 knows",
+            ));
+        }
+        let why = match (self.motion, self.update) {
             (Motion::J2, _) => Some(
                 "it is the J2 model in the target's LVLH frame; elsewhere every filter already has the full gravity, as in snc",
             ),
@@ -68,11 +76,13 @@ impl FilterEntry {
                 Some("its gain multiplies a measurement of the whole state (H = I), which range and angles are not")
             }
             (Motion::OfFrame, Update::Kalman) => None,
-        }
+        };
+        why.map(|why| (Frame::Lvlh, why))
     }
 
     /// Why the filter has no meaning in a mission; `None` where it has one.
     pub fn no_meaning_in(&self, navigation: &Navigation) -> Option<&'static str> {
-        self.lvlh_alone().filter(|_| navigation.frame != Frame::Lvlh)
+        let (frame, why) = self.alone_in()?;
+        (navigation.frame != frame).then_some(why)
     }
 }

@@ -15,6 +15,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     motion: Motion::OfFrame,
     update: Update::Kalman,
     edits: false,
+    bound: false,
     tunables: &[Tunable {
         name: "s",
         about: "square root of the jerk density, one number for all axes",

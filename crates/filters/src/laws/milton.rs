@@ -28,6 +28,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     motion: Motion::OfFrame,
     update: Update::Kalman,
     edits: false,
+    bound: false,
     tunables: &[
         M_B,
         RESIDUALS,

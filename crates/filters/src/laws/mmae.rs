@@ -14,6 +14,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     motion: Motion::OfFrame,
     update: Update::Kalman,
     edits: true,
+    bound: false,
     tunables: &[LOWEST, MEMBERS, MEMORY],
     presets: &[CONSTANTS],
     search: &[],
@@ -75,7 +76,7 @@ impl Decades {
 
     /// * `roots`: square roots of the densities, m/s^1.5.
     pub(super) fn new(roots: &[f64], setup: &Setup<'_>) -> Self {
-        let unit = setup.units.velocity() / setup.units.time.sqrt();
+        let unit = setup.units.root_acceleration_density();
         let member = Member {
             dx: Vector6::zeros(),
             p: Matrix6::zeros(),

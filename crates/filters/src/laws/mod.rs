@@ -7,6 +7,7 @@
 mod adaptation;
 mod bank;
 mod change_point;
+mod clairvoyant;
 mod constrained_q;
 pub mod correlation;
 mod dmc;
@@ -25,9 +26,10 @@ mod rbfnn_ekf;
 pub mod registry;
 mod snc;
 mod step_noise;
+mod times_known;
 mod window;
 
-pub use adaptation::{Adaptation, Setup, Step};
+pub use adaptation::{Adaptation, Hindsight, Setup, Step};
 pub use bank::Replacement;
 pub use entry::{FilterEntry, Motion, Search, Update};
 pub use registry::{FILTERS, Law};

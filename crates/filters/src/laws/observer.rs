@@ -19,6 +19,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     motion: Motion::OfFrame,
     update: Update::ConstantGain(gain),
     edits: false,
+    bound: false,
     tunables: &network::with::<2, 11>([
         Tunable {
             name: "k_position",

@@ -23,6 +23,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     motion: Motion::OfFrame,
     update: Update::Kalman,
     edits: false,
+    bound: false,
     tunables: &network::with::<6, 15>([
         Q_POSITION,
         Q_VELOCITY,

@@ -19,6 +19,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     motion: Motion::OfFrame,
     update: Update::Kalman,
     edits: false,
+    bound: false,
     tunables: &network::with::<2, 11>([Q_POSITION, Q_VELOCITY]),
     presets: &[
         Preset {

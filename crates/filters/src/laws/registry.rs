@@ -38,6 +38,8 @@ registry! {
     Hybrid => hybrid;
     Imm => imm;
     Mmae => mmae;
+    Clairvoyant => clairvoyant;
+    TimesKnown => times_known;
 }
 
 impl Law {

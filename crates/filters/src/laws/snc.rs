@@ -15,6 +15,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     motion: Motion::OfFrame,
     update: Update::Kalman,
     edits: false,
+    bound: false,
     tunables: &[Tunable {
         name: "q",
         about: "square root of the acceleration density, one number for all axes",
@@ -51,9 +52,8 @@ impl Snc {
     /// # Errors
     /// When a tunable is out of range.
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
-        let unit = setup.units.velocity() / setup.units.time.sqrt();
         Ok(Self {
-            q: setup.tunables.real("q")? / unit * setup.off_nominal.sqrt(),
+            q: setup.tunables.real("q")? / setup.units.root_acceleration_density() * setup.off_nominal.sqrt(),
         })
     }
 }

@@ -6,7 +6,7 @@
 
 use filters::dynamics::{Drive, Thrust, TwoVehicles, initial_covariance};
 use filters::state::State;
-use filters::{Gravity, Reading, Sample, SpecificForce, jerk};
+use filters::{Gravity, Reading, Sample, SpecificForce, Untold, jerk};
 use interface::Sensor;
 use interface::mission::InitialSigma;
 use nalgebra::{Matrix3, Vector3};
@@ -42,6 +42,8 @@ pub struct OwnWorld {
     s: f64,
     g: Generator,
     k: i32,
+    /// What a bound is told: the target's acceleration acts at all times.
+    untold: Untold,
 }
 
 impl OwnWorld {
@@ -76,6 +78,7 @@ impl OwnWorld {
                 s,
                 g,
                 k: 0,
+                untold: Untold::default(),
             },
             x + error,
         )
@@ -107,6 +110,8 @@ impl OwnWorld {
             .dynamics
             .process_noise(&jerk::process_noise(&Vector3::repeat(self.s * self.s), 1.0), 1.0);
         let l = q.cholesky().unwrap().l();
+        self.untold.dv_t_n += self.x.fixed_rows::<3>(6);
+        self.untold.event_time += 1.0;
         self.x += l * State::from_fn(|_, _| normal(&mut self.g));
         self.k += 1;
         let dcm_bc_n = self.attitude();
@@ -117,6 +122,7 @@ impl OwnWorld {
         let mut sample = Sample {
             accelerometer: Some(SpecificForce::Instant(alpha)),
             dcm_bc_n,
+            untold: Some(self.untold),
             ..Sample::blank(self.k, f64::from(self.k))
         };
         sample[Sensor::Lidar] = Reading::of((sensors::lidar::measure(&rho) + noise).as_slice());

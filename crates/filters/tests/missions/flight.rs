@@ -1,7 +1,7 @@
 //! A small truth of its own: two vehicles in any gravity, burns, and every sensor at a period of its own.
 
 use filters::state::State;
-use filters::{Reading, Sample, SpecificForce};
+use filters::{Reading, Sample, SpecificForce, Untold};
 use interface::Navigation;
 use nalgebra::{Matrix3, SVector, Vector3, Vector6};
 use numerics::{Generator, Source, rk4, stream};
@@ -33,6 +33,7 @@ pub struct Flight {
     samples: i32,
     /// Sum of the chaser's specific force in its body axes since the last accelerometer sample, and its steps.
     felt: (Vector3<f64>, f64),
+    untold: Untold,
 }
 
 const BIAS: Vector3<f64> = Vector3::new(2.9e-6, -2.0e-6, 1.0e-6);
@@ -83,6 +84,7 @@ impl Flight {
             step: 0,
             samples: 0,
             felt: (Vector3::zeros(), 0.0),
+            untold: Untold::default(),
         };
         (flight, start)
     }
@@ -133,6 +135,10 @@ impl Flight {
             });
             self.x = x;
             self.step += 1;
+            self.untold.dv_t_n += a_t * self.grid;
+            if a_t != Vector3::zeros() {
+                self.untold.event_time += self.grid;
+            }
             self.felt.0 += a_c;
             self.felt.1 += 1.0;
             if let Some(sample) = self.sample(f64::from(self.step) * self.grid) {
@@ -144,7 +150,7 @@ impl Flight {
     fn sample(&mut self, t: f64) -> Option<Sample> {
         let told = self.told.clone();
         let mut sample = Sample::blank(self.samples + 1, t);
-        sample.dcm_bc_n = self.attitude();
+        (sample.dcm_bc_n, sample.untold) = (self.attitude(), Some(self.untold));
         let (r_t, v_t) = (self.part(0), self.part(3));
         let lvlh = astro::Lvlh::new(&r_t, &v_t, &(self.gravity)(t, &r_t, &v_t));
         let (rho, rho_dot) = lvlh.relative(&self.part(6), &self.part(9));

@@ -400,3 +400,53 @@ fn the_lvlh_frame_takes_a_metrology_alone() {
         .to_string();
     assert!(error.contains("metrology alone"), "{error}");
 }
+
+/// A push that a quiet filter is thrown off by leaves the error of the one that is told of it where it was.
+#[test]
+fn a_clairvoyant_filter_errs_as_if_nothing_pushed() {
+    let told = low_orbit("[sensors.lidar]", "chaser_q_c_m2_s3 = 1e-12");
+    let push = Push {
+        from: 400.0,
+        to: 430.0,
+        a_n: Vector3::new(1e-3, -2e-3, 1e-3),
+    };
+    let error = |filter: &str, tunable: &str, pushes: &[Push]| {
+        let (mut flight, start) = fly(&told, 2);
+        flight.on_target.extend(pushes);
+        let mut nav = navigator(&told, filter, tunable, 1e-7);
+        for _ in 0..600 {
+            nav.process(&flight.next(), &start).unwrap();
+        }
+        let error = nav.estimate().x.fixed_rows::<6>(0) - flight.relative();
+        error.component_div(&nav.estimate().sigma.fixed_rows::<6>(0))
+    };
+    let moved = |filter, tunable| (error(filter, tunable, &[push]) - error(filter, tunable, &[])).amax();
+    // The target is some metres elsewhere, of hundreds: it is seen as much differently.
+    let (clairvoyant, snc) = (moved("clairvoyant", "q"), moved("snc", "q"));
+    assert!(clairvoyant < 0.1 && snc > 10.0, "{clairvoyant} and {snc} sigma");
+}
+
+/// Between samples that see nothing the variance of velocity grows by the high density for as long as the push lasts, whatever part
+/// of an interval that is.
+#[test]
+fn the_density_is_high_for_as_long_as_something_pushes() {
+    let told = low_orbit("[sensors.lidar]\nperiod_s = 5.0", "");
+    let (mut flight, start) = fly(&told, 1);
+    flight.on_target.push(Push {
+        from: 307.0,
+        to: 315.0,
+        a_n: Vector3::new(0.0, 1e-4, 0.0),
+    });
+    let mut nav = navigator(&told, "times_known", "q_active", 0.1);
+    let mut variances = [0.0; 2];
+    for _ in 0..64 {
+        let mut sample = flight.next();
+        if sample.time > 300.0 {
+            sample.sensors.fill(Reading::Lost);
+        }
+        nav.process(&sample, &start).unwrap();
+        variances[usize::from(sample.time > 300.0)] = nav.estimate().p_target[(4, 4)];
+    }
+    let growth = variances[1] - variances[0];
+    assert!((growth / (0.01 * 8.0) - 1.0).abs() < 1e-3, "{growth}");
+}

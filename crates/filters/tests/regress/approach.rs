@@ -2,7 +2,7 @@
 
 use super::formation::World;
 use filters::state::State;
-use filters::{Reading, Sample, SpecificForce};
+use filters::{Reading, Sample, SpecificForce, Untold};
 use interface::Sensor;
 use nalgebra::{SVector, Vector3, Vector6};
 use numerics::{Generator, Source, rk4, stream};
@@ -82,6 +82,8 @@ impl World for Approach {
         let mut sample = Sample {
             accelerometer: Some(SpecificForce::Instant(alpha_c_bc)),
             dcm_bc_n,
+            // Nothing pushes the target.
+            untold: Some(Untold::default()),
             ..Sample::blank(self.k, f64::from(self.k))
         };
         sample[Sensor::Lidar] = Reading::of(lidar.as_slice());

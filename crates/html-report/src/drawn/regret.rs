@@ -1,9 +1,9 @@
-//! Laws against the best constant, level by level.
+//! Laws against the best constant, level by level, with the bounds that none can pass.
 
 use std::path::Path;
 
 use super::axis::Axis;
-use super::sheet::{Dot, INK, Key, Line, Mark, Panel, Sheet, colour, range};
+use super::sheet::{Dash, Dot, INK, Key, Line, Mark, Panel, SOFT, Sheet, colour, range};
 use crate::ReportError;
 use crate::folder::{Row, table};
 use plotters::style::Color;
@@ -21,38 +21,53 @@ pub(super) fn sheets(folder: &Path) -> Result<Vec<(String, Sheet)>, ReportError>
         TABLE,
         &["mission", "level", "filter", "kind", "pos_ratio", "vel_ratio"],
     )?;
-    let laws: Vec<&Row> = rows.iter().filter(|row| row.text("kind") == "law").collect();
-    let missions = names(&laws, "mission");
+    let of_kind = |kind| rows.iter().filter(move |row| row.text("kind") == kind);
+    let (laws, bounds): (Vec<&Row>, Vec<&Row>) = (of_kind("law").collect(), of_kind("bound").collect());
+    let missions = names(laws.iter().chain(&bounds), |row| row.text("mission"));
     let sheet = |mission: String| {
-        let own: Vec<&Row> = laws
-            .iter()
-            .copied()
-            .filter(|row| row.text("mission") == mission)
-            .collect();
-        (format!("{mission}_regret"), of_mission(&mission, &own))
+        let [laws, bounds] = [&laws, &bounds].map(|all| {
+            let own = all.iter().filter(|row| row.text("mission") == mission);
+            own.copied().collect::<Vec<&Row>>()
+        });
+        (format!("{mission}_regret"), of_mission(&mission, &laws, &bounds))
     };
     Ok(missions.into_iter().map(sheet).collect())
 }
 
-/// Values of a column in the order in which they come.
-fn names(rows: &[&Row], column: &str) -> Vec<String> {
+/// What rows are called, in the order in which they come.
+fn names<'a>(rows: impl IntoIterator<Item = &'a &'a Row>, of: impl Fn(&'a Row) -> &'a str) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for row in rows {
-        if !names.iter().any(|name| name == row.text(column)) {
-            names.push(row.text(column).to_owned());
+        if !names.iter().any(|name| name == of(row)) {
+            names.push(of(row).to_owned());
         }
     }
     names
 }
 
-fn of_mission(mission: &str, rows: &[&Row]) -> Sheet {
-    let (levels, filters) = (names(rows, "level"), names(rows, "filter"));
+/// A bound without the values of the member of its family.
+fn family(row: &Row) -> &str {
+    let label = row.text("filter");
+    label.split_once('(').map_or(label, |(family, _)| family)
+}
+
+/// Lines of the bounds, one for each family.
+const DASHES: [Option<Dash>; 3] = [None, Some((5, 2)), Some((2, 2))];
+
+/// * `rows`, `bounds`: laws, which are dots, and the bounds of each level, which are lines across it.
+fn of_mission(mission: &str, rows: &[&Row], bounds: &[&Row]) -> Sheet {
+    let levels = names(rows.iter().chain(bounds), |row| row.text("level"));
+    let filters = names(rows, |row| row.text("filter"));
+    let families = names(bounds, family);
+    let level = |row: &Row| levels.iter().position(|name| name == row.text("level"));
+    let dash = |index: usize| DASHES[index % DASHES.len()];
     let place = |v: f64| v.clamp(EDGES[0], EDGES[1]).log10();
     let panel = |title: &str, column: &str| {
         let ends = ["", "_low", "_high"].map(|end| format!("{column}{end}"));
         let values = rows
             .iter()
             .flat_map(|row| ends.iter().filter_map(|name| row.number(name)))
+            .chain(bounds.iter().filter_map(|row| row.number(column)))
             .chain([1.0]);
         let x = Axis::powers(
             range(values.map(place)),
@@ -64,9 +79,20 @@ fn of_mission(mission: &str, rows: &[&Row]) -> Sheet {
         let last = levels.len() as f64 - 0.5;
         panel.sides.0 = 24 + 7 * levels.iter().map(String::len).max().unwrap_or(0) as u32;
         panel.lines.push(line(vec![(0.0, -0.5), (0.0, last)], 1.0, INK));
+        for row in bounds {
+            let place_of = families.iter().position(|name| name == family(row));
+            let (Some(level), Some(index), Some(value)) = (level(row), place_of, row.number(column)) else {
+                continue;
+            };
+            let (x, y) = (place(value), level as f64);
+            panel.lines.push(Line {
+                dash: dash(index),
+                ..line(vec![(x, y - 0.45), (x, y + 0.45)], 1.5, SOFT)
+            });
+        }
         for row in rows {
             let (Some(level), Some(filter), Some(value)) = (
-                levels.iter().position(|name| name == row.text("level")),
+                level(row),
                 filters.iter().position(|name| name == row.text("filter")),
                 row.number(column),
             ) else {
@@ -95,11 +121,16 @@ fn of_mission(mission: &str, rows: &[&Row]) -> Sheet {
         colour: colour(index).to_rgba(),
         mark: Mark::Dot,
     });
+    let bounds = families.iter().enumerate().map(|(index, name)| Key {
+        name: format!("{name} (bound)"),
+        colour: SOFT.to_rgba(),
+        mark: Mark::Line(dash(index)),
+    });
     Sheet {
         panel: (560, 90 + 46 * levels.len() as u32),
         across: 2,
         name: format!("{mission}, 95 % intervals"),
-        keys: keys.collect(),
+        keys: keys.chain(bounds).collect(),
         panels: vec![panel("position", "pos_ratio"), panel("velocity", "vel_ratio")],
     }
 }

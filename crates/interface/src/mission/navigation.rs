@@ -56,6 +56,16 @@ pub enum Frame {
     Lvlh,
 }
 
+impl Frame {
+    /// As a mission file says it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Inertial => "inertial",
+            Self::Lvlh => "lvlh",
+        }
+    }
+}
+
 /// Units in which a filter works and adapts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

@@ -17,6 +17,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::overrides::Run;
+use crate::untold::Untold;
 use accelerometer::Accelerometer;
 use of_target::OfTarget;
 
@@ -40,6 +41,8 @@ pub struct SensorSample {
     pub target_orbit: Option<TargetOrbit>,
     /// Attitude of the chaser at the epoch, maps N to body; that of the start time before the first sample.
     pub dcm_bc_n: Matrix3<f64>,
+    /// What no sensor measures and only a bound is told, up to the epoch.
+    pub untold: Untold,
 }
 
 impl Index<Sensor> for SensorSample {
@@ -152,6 +155,7 @@ impl SensorSample {
             accelerometer: AccelerometerSample::default(),
             target_orbit: scene.target_orbit,
             dcm_bc_n: scene.dcm_bc_n,
+            untold: Untold::default(),
         }
     }
 }

@@ -177,7 +177,7 @@ impl ByLikelihood {
             return Err(refused(&Q_MAX, q_max, permitted));
         }
         // The factor of a study of mistuning is on the bounds as it is on the members.
-        let unit = setup.units.velocity() / setup.units.time.sqrt();
+        let unit = setup.units.root_acceleration_density();
         let log = |q: f64| ((q / unit).powi(2) * setup.off_nominal).ln();
         let memory = |tunable: &Tunable| Ok::<f64, FilterError>(t.real(tunable.name)? / setup.units.time);
         let white = Decades::new(&roots, setup);

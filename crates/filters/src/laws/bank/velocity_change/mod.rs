@@ -101,7 +101,7 @@ struct Weighed {
 
 impl VelocityChanges {
     pub(in crate::laws) fn new(parameters: &Parameters, units: &Units) -> Self {
-        let unit = units.velocity() / units.time.sqrt();
+        let unit = units.root_acceleration_density();
         Self {
             second: 1.0 / units.time,
             speed: units.velocity(),
