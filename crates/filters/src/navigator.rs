@@ -215,7 +215,7 @@ impl Navigator {
                 samples: Positive.check("divergence.samples", f64::from(b.divergence_samples), "")?,
                 mean: 1.0,
             },
-            editing: editing(filter, b)?,
+            editing: editing(filter, b, &told)?,
             r: setup.r,
             estimate: Estimate {
                 time: start_time,
@@ -280,7 +280,7 @@ impl Navigator {
         if let Some(all) = seen {
             // Asked for only where there is something to doubt.
             let excess = || self.law.excess(&f.fixed_view::<6, 6>(0, 0).into_owned());
-            let outliers = self.editing.find(t_s, &step, all.nis, excess, self.layout, &self.r);
+            let outliers = self.editing.find(&sample, &step, all.nis, excess, self.layout, &self.r);
             if !outliers.is_empty() {
                 outliers
                     .into_iter()
@@ -296,11 +296,14 @@ impl Navigator {
         // A law learns from what is measured of the target and of how long it took: a fast accelerometer must not cut that up.
         let whole = Between::with(self.between.take(), &step);
         let due = self.layout.any_due(&sample);
+        let mut moved = step.correction;
         if due {
             (step.dt, step.f, step.correction) = (whole.dt, whole.f, whole.correction);
             self.law.observe(&step)?;
             if let Some(own) = self.law.replacement() {
                 estimator.shift(&own.shift);
+                let mut relative = moved.fixed_rows_mut::<6>(0);
+                relative += own.shift;
                 if let Some(defect) = estimator.defect(t_s).or_else(|| own.defect(t_s)) {
                     return Err(defect);
                 }
@@ -309,6 +312,7 @@ impl Navigator {
         } else {
             self.between = Some(whole);
         }
+        self.editing.remember(&sample, &step, &moved, self.layout);
         self.law.look_ahead(&estimator.relative());
         let Reported { x, p_target, sigma } = estimator.report(&sample, &self.law);
         self.estimate = Estimate {
@@ -416,7 +420,7 @@ impl Navigator {
 ///
 /// # Errors
 /// When a parameter is out of range.
-fn editing(filter: &FilterEntry, b: &Beliefs) -> Result<Editing, FilterError> {
+fn editing(filter: &FilterEntry, b: &Beliefs, told: &Navigation) -> Result<Editing, FilterError> {
     let refused = |name: &str, value: f64, permitted: &str| FilterError::OutOfRange {
         name: name.into(),
         value,
@@ -439,7 +443,7 @@ fn editing(filter: &FilterEntry, b: &Beliefs) -> Result<Editing, FilterError> {
     }
     // Without a covariance there is no likelihood.
     let looks = on && matches!(filter.update, Update::Kalman);
-    Ok(Editing::new(looks.then_some(share), b.editing_most_in_a_row))
+    Ok(Editing::new(looks.then_some(share), b.editing_most_in_a_row, told))
 }
 
 /// An innovation as a law sees it that keeps filters of its own: the residual is of the mean, which is the law's already.

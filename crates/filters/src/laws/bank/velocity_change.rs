@@ -14,7 +14,6 @@
 use super::centre::{Shared, white};
 use super::member::Member;
 use super::mixture::{Mixture, Moments};
-use crate::editing::SETTLING;
 use crate::units::Units;
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
@@ -29,6 +28,9 @@ const PRIOR_TIME: f64 = 600.0;
 const THINNED: [(f64, f64); 3] = [(0.0, 5.0), (30.0, 10.0), (80.0, 40.0)];
 /// Age at which a hypothesis is folded into the quiet filter, s.
 const OLDEST: f64 = 320.0;
+/// Time after the first sample in which no change is looked for, s: the first estimate is too far off for the slopes that it is
+/// updated with, and what it leaves is none of the target's doing.
+const SETTLING: f64 = 30.0;
 /// Weight of "no change" below which the mixture takes the place of the quiet filter.
 const DECIDED: f64 = 0.02;
 /// Weights below this share of the largest count for nothing.
