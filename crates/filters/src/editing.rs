@@ -15,7 +15,7 @@
 
 use crate::laws::Step;
 use crate::layout::Layout;
-use crate::sample::{Reading, Sample};
+use crate::sample::{Reading, Sample, SpecificForce};
 use crate::state::{RowVector, Target};
 use interface::mission::Quantity;
 use interface::{Navigation, Sensor};
@@ -42,6 +42,8 @@ pub(crate) struct Editing {
     /// Most samples of a sensor that are passed by one after the other.
     most: i32,
     watched: [Watched; Sensor::COUNT],
+    /// Whether the mission has an accelerometer.
+    accelerometer: bool,
     outliers: i32,
     impossible: i32,
 }
@@ -111,6 +113,7 @@ impl Editing {
             share,
             most,
             watched,
+            accelerometer: told.accelerometer.is_some(),
             outliers: 0,
             impossible: 0,
         }
@@ -126,7 +129,7 @@ impl Editing {
         self.impossible
     }
 
-    /// Sensors whose sample cannot be: a range that is not positive, or anything that is no number.
+    /// Takes away what cannot be: a range that is not positive, or anything that is no number, of the accelerometer too.
     pub(crate) fn remove_impossible(&mut self, sample: &mut Cow<'_, Sample>, layout: Layout) {
         for sensor in Sensor::ALL {
             if let (Some(_), Some(z)) = (layout.of_sensor(sensor), sample[sensor].seen()) {
@@ -137,6 +140,11 @@ impl Editing {
                     self.impossible += 1;
                 }
             }
+        }
+        let is_number = |force: &SpecificForce| force.alpha_c_bc().iter().all(|v| v.is_finite());
+        if self.accelerometer && sample.accelerometer.as_ref().is_some_and(|force| !is_number(force)) {
+            sample.to_mut().accelerometer = None;
+            self.impossible += 1;
         }
     }
 
@@ -461,6 +469,11 @@ mod tests {
             assert_ne!(sample[Sensor::Camera], Reading::Lost);
         }
         assert_eq!(editing.impossible(), 4);
+        let mut sample = Sample::blank(1, 1.0);
+        sample.accelerometer = Some(SpecificForce::Instant(nalgebra::Vector3::new(0.0, f64::NAN, 0.0)));
+        let mut sample = Cow::Owned(sample);
+        editing.remove_impossible(&mut sample, layout);
+        assert!(sample.accelerometer.is_none() && editing.impossible() == 5);
     }
 
     #[test]
