@@ -208,7 +208,7 @@ impl Navigator {
             frame: told.frame,
             layout,
             start_s: start_time,
-            estimator: Kind::new(&told, b, filter.motion, gain, law.acceleration())?,
+            estimator: Kind::new(&told, b, filter, gain, law.acceleration())?,
             law,
             divergence: Divergence {
                 limit: Positive.check("divergence.nis", b.divergence_nis, "")?,
@@ -400,7 +400,8 @@ impl Navigator {
         self.editing.outliers()
     }
 
-    /// Samples of a sensor that were passed by since they cannot be: a range that is not positive, a number that is none.
+    /// Samples of a sensor, the accelerometer included, that were passed by since they cannot be: a range that is not positive, a
+    /// number that is none.
     pub fn impossible(&self) -> i32 {
         self.editing.impossible()
     }
@@ -427,12 +428,7 @@ fn editing(filter: &FilterEntry, b: &Beliefs, told: &Navigation) -> Result<Editi
         unit: "",
         permitted: permitted.into(),
     };
-    let on = match b.editing_mode {
-        -1 => filter.edits,
-        0 => false,
-        1 => true,
-        other => return Err(refused("editing.mode", f64::from(other), "-1, 0 or 1")),
-    };
+    let on = Beliefs::switched("editing.mode", b.editing_mode, filter.ours)?;
     let share = Positive.check("editing.outlier_share", b.editing_outlier_share, "")?;
     if share >= 0.5 {
         return Err(refused("editing.outlier_share", share, "between 0 and 0.5"));

@@ -451,7 +451,7 @@ fn spoil(sample: &mut Sample, how: impl Fn(&mut f64)) {
 /// Whether a filter of [`everywhere`] looks for outliers.
 fn edits(label: &str) -> bool {
     let name = label.split(' ').next().unwrap();
-    FILTERS.iter().any(|entry| entry.name == name && entry.edits)
+    FILTERS.iter().any(|entry| entry.name == name && entry.ours)
 }
 
 /// One sample that is off by a thousand kilometres or a radian, whatever the sensor and whenever it comes: a filter that edits stays

@@ -6,7 +6,7 @@ use super::two_vehicles::InertialState;
 use crate::beliefs::Beliefs;
 use crate::dynamics::AccelerationModel;
 use crate::error::FilterError;
-use crate::laws::Motion;
+use crate::laws::FilterEntry;
 use crate::state::RowVector;
 use crate::update::ConstantGain;
 use interface::Navigation;
@@ -24,20 +24,21 @@ impl Kind {
     /// The estimator of a mission's frame.
     ///
     /// * `told`: the mission, what a user believes included.
+    /// * `filter`: whose motion and habits it has.
     /// * `gain`: set for a constant gain in place of that of a covariance.
     ///
     /// # Errors
-    /// When the mission tells of something that the frame cannot use.
+    /// When the mission tells of something that the frame cannot use, or a belief is out of range.
     pub(crate) fn new(
         told: &Navigation,
         beliefs: &Beliefs,
-        motion: Motion,
+        filter: &FilterEntry,
         gain: Option<ConstantGain>,
         acceleration: AccelerationModel,
     ) -> Result<Self, FilterError> {
         Ok(match told.frame {
-            Frame::Inertial => Self::Inertial(Box::new(InertialState::new(told, beliefs, acceleration)?)),
-            Frame::Lvlh => Self::Lvlh(Box::new(LvlhState::new(told, motion, gain, acceleration)?)),
+            Frame::Inertial => Self::Inertial(Box::new(InertialState::new(told, beliefs, filter.ours, acceleration)?)),
+            Frame::Lvlh => Self::Lvlh(Box::new(LvlhState::new(told, filter.motion, gain, acceleration)?)),
         })
     }
 

@@ -31,7 +31,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "the correlation regression solved for a bounded jerk density by a conic programme",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: false,
+    ours: false,
     tunables: &[
         M_B,
         RESIDUALS,

@@ -14,7 +14,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "constant jerk density, acceleration as a state",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: false,
+    ours: false,
     tunables: &[Tunable {
         name: "s",
         about: "square root of the jerk density, one number for all axes",

@@ -14,7 +14,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "state noise compensation: constant white-acceleration density, no acceleration state",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: true,
+    ours: true,
     tunables: &[Tunable {
         name: "q",
         about: "square root of the acceleration density, one number for all axes",
