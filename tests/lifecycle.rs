@@ -156,6 +156,37 @@ fn cases(scenario: &str) -> Vec<Case> {
     cases
 }
 
+/// Whatever a sensor says that says that it is not valid, the filter does not hear it.
+#[test]
+fn what_is_not_valid_may_be_no_number() {
+    let snc: Vec<&Case> = CASES.iter().filter(|case| case.label.ends_with("snc@paper")).collect();
+    assert_eq!(snc.len(), items("scenario").count());
+    for case in snc {
+        let invalid = |inputs: &[(String, Value)]| -> Vec<String> {
+            let of = |(name, value): &(String, Value)| {
+                let sensor = name.strip_suffix("valid").filter(|_| *value == Value::Boolean(false));
+                sensor.map(str::to_owned)
+            };
+            inputs.iter().filter_map(of).collect()
+        };
+        let spoilt = |inputs: &Vec<(String, Value)>| {
+            let sensors = invalid(inputs);
+            let spoil = |(name, value): &(String, Value)| {
+                let of_one = sensors.iter().any(|sensor| name.starts_with(sensor));
+                let none = of_one && matches!(value, Value::Real(_));
+                (name.clone(), if none { Value::Real(f64::NAN) } else { value.clone() })
+            };
+            inputs.iter().map(spoil).collect()
+        };
+        let spoilt = Case {
+            script: Arc::new(case.script.iter().map(spoilt).collect()),
+            ..case.clone()
+        };
+        let answers = |case: &Case| case.run(&mut case.started(), 0..STEPS);
+        assert!(answers(case) == answers(&spoilt), "{}", case.label);
+    }
+}
+
 #[test]
 fn a_reset_makes_an_instance_new() {
     for case in CASES.iter() {
@@ -542,7 +573,7 @@ fn truth_mistakes() -> Vec<Mistake> {
 
 fn nav_mistakes() -> Vec<Mistake> {
     let before: &[When] = &[Instantiated, Initialization];
-    let mut all = common_mistakes("est.r_tc_n[1]", "lidar.range", "r.sigma_range");
+    let mut all = common_mistakes("est.r_tc_n[1]", "sample_time", "r.sigma_range");
     for name in [
         "r.sigma_range",
         "r.sigma_angle",

@@ -263,7 +263,9 @@ fn input_row(t: &mut Builder, port: &'static Port, slot: Slot) {
             move |m, v| slot.set_boolean(&mut m.inputs, v),
         ),
         _ => {
-            let row = with_unit(t.real(name).input().discrete(), port)
+            let row = t.real(name).input().discrete();
+            let row = if port.at_times_invalid() { row.any_number() } else { row };
+            let row = with_unit(row, port)
                 .start_by(move |i| slot.reals(&start)[i])
                 .about_by(|i| port.about(i).to_owned());
             let get = move |m: &NavModel, i: usize| slot.reals(&m.inputs)[i];
@@ -430,7 +432,12 @@ mod tests {
     }
 
     /// A sample at `t` seconds, which is also its ordinal, with every sensor's measurement; both vehicles in low orbit.
-    fn sampled(mut model: NavModel, t: i32) -> NavModel {
+    fn sampled(model: NavModel, t: i32) -> NavModel {
+        sampled_with(model, t, |_| ())
+    }
+
+    /// The same, changed.
+    fn sampled_with(mut model: NavModel, t: i32, change: impl Fn(&mut Signals)) -> NavModel {
         let mut init = [0.0; 18];
         init[..6].copy_from_slice(&[500.0, 30.0, -20.0, -0.5, 0.1, 0.0]);
         init[9..15].copy_from_slice(&[6.878e6, 0.0, 0.0, 0.0, 7.6e3, 0.0]);
@@ -453,6 +460,7 @@ mod tests {
                 z,
             };
         }
+        change(&mut model.inputs);
         model.do_step(f64::from(t - 1), 1.0, &mut Log::silent()).unwrap();
         model
     }
@@ -549,6 +557,52 @@ mod tests {
         for (name, value) in expected {
             assert_eq!(integer(&model, name), value, "{name}");
         }
+    }
+
+    /// The same sample twice, and in one of them everything that is not valid is no number.
+    #[test]
+    fn what_is_not_valid_may_be_anything() {
+        for scenario in [1, 3] {
+            for (number, nothing) in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].into_iter().enumerate() {
+                let fly = |spoilt: bool| {
+                    let mut model = initialised(started(scenario));
+                    for t in 1..=20 {
+                        model.inputs.accelerometer_valid = t % 3 == number as i32;
+                        model.inputs.alpha_c_bc = [1e-6; 3];
+                        if spoilt && !model.inputs.accelerometer_valid {
+                            model.inputs.alpha_c_bc = [nothing; 3];
+                        }
+                        model = sampled_with(model, t, |inputs| {
+                            for sensor in Sensor::ALL {
+                                inputs[sensor].valid &= t % 4 != 0;
+                                if spoilt && !inputs[sensor].valid {
+                                    inputs[sensor].z = [nothing; Sensor::MOST_ROWS];
+                                }
+                            }
+                        });
+                    }
+                    model
+                };
+                let (plain, spoilt) = (fly(false), fly(true));
+                let of = |model: &NavModel| {
+                    let navigator = model.navigator.clone().unwrap();
+                    (navigator.estimate().clone(), navigator.impossible(), navigator.status())
+                };
+                assert_eq!(of(&plain), of(&spoilt), "scenario {scenario}, {nothing}");
+                assert_eq!(of(&spoilt).1, 0);
+            }
+        }
+    }
+
+    #[test]
+    fn a_valid_measurement_that_is_no_number_is_impossible() {
+        let model = sampled_with(initialised(started(1)), 1, |inputs| {
+            inputs[Sensor::Lidar].z[1] = f64::NAN;
+            inputs.alpha_c_bc[2] = f64::NAN;
+        });
+        assert_eq!(integer(&model, "edited.impossible"), 2);
+        assert_eq!(model.status(), Status::Coasting);
+        assert!(model.navigator.unwrap().estimate().x.iter().all(|v| v.is_finite()));
     }
 
     #[test]

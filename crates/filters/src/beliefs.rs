@@ -92,15 +92,35 @@ beliefs! {
     gravity_j4: Real(f64) = OWN, "gravity.j4", "1", AtLeast(-0.5), "fourth zonal harmonic";
     gravity_mass_ratio: Real(f64) = OWN, "gravity.mass_ratio", "1", Positive, "mass ratio of the three-body problem";
     divergence_nis: Real(f64) = 100.0, "divergence.nis", "1", Positive, "the filter calls itself diverged when the running mean of NIS over its rows exceeds this";
-    editing_mode: Integer(i32) = -1, "editing.mode", "", AtLeast(-1.0), "whether samples that are most likely outliers are passed by: 1 yes, 0 no, -1 as the filter has it (change_point, constrained_q by likelihood, hybrid, imm and mmae do)";
+    editing_mode: Integer(i32) = -1, "editing.mode", "", AtLeast(-1.0), "whether samples that are most likely outliers are passed by: 1 yes, 0 no, -1 as the filter has it (those that reproduce a paper do not)";
     editing_outlier_share: Real(f64) = 0.01, "editing.outlier_share", "1", Positive, "share of outliers, of ten times the noise, that it reckons with; below one half";
     editing_most_in_a_row: Integer(i32) = 3, "editing.most_in_a_row", "", AtLeast(0.0), "most samples of a sensor that are passed by one after the other";
+    accelerometer_noise_enters: Integer(i32) = -1, "accelerometer.noise_enters", "", AtLeast(-1.0), "whether the noise of a reading of the instant enters the covariance while it drives the propagation, as that of a mean always does: 1 yes, 0 no, -1 as the filter has it (those that reproduce a paper do not)";
     divergence_samples: Integer(i32) = 60, "divergence.samples", "", AtLeast(1.0), "time constant of that running mean, samples";
 }
 
 impl Beliefs {
     /// Stands for "the mission's own value".
     pub const OWN: f64 = -1.0;
+
+    /// A switch of [`Place::Integer`] as it acts.
+    ///
+    /// * `own`: as the filter has it.
+    ///
+    /// # Errors
+    /// When it is none of -1, 0 and 1.
+    pub(crate) fn switched(name: &str, mode: i32, own: bool) -> Result<bool, FilterError> {
+        match mode {
+            -1 => Ok(own),
+            0 | 1 => Ok(mode == 1),
+            other => Err(FilterError::OutOfRange {
+                name: name.into(),
+                value: f64::from(other),
+                unit: "",
+                permitted: "-1, 0 or 1".into(),
+            }),
+        }
+    }
 }
 
 /// Whether a value stands for the mission's own.

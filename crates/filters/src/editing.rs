@@ -1,27 +1,38 @@
 //! Measurement editing: samples that cannot be, and samples that are most likely outliers, are passed by.
 //!
 //! An outlier is taken to have ten times the noise. With a share p of them, innovation v, its covariance S and noise R, a sample is
-//! one with probability p N(v; S + 99 R) / [(1 - p) N(v; S) + p N(v; S + 99 R)]. It is passed by where that is above one half, but
-//! not more than a few times in a row, and then not again until a sample fits: a filter that has lost its way must not take the truth
-//! for outliers.
+//! one with probability p N(v; S + 99 R) / [(1 - p) N(v; S) + p N(v; S + 99 R)]. It is suspected where that is above one half.
+//!
+//! That S is right is what the filter believes, and a filter that has lost its way believes it too: to it the truth is an outlier, and
+//! every sample passed by takes it further off. So a suspect is passed by
+//!
+//! * where it stands out from the sample before, too. With e what that one left, v - e is the change that was measured less the one
+//!   that was predicted; it has the noise of two samples and next to nothing of what a filter that lags is off by;
+//! * where the filter's record speaks for it: of the sensor's last samples at most a third were suspected;
+//! * not more than a few times in a row, and then not again until a sample fits.
+//!
+//! Without a record, at the start above all, only what is beyond all bounds and far from the measurement before is passed by.
 
 use crate::laws::Step;
 use crate::layout::Layout;
-use crate::sample::{Reading, Sample};
-use crate::state::RowVector;
-use interface::Sensor;
+use crate::sample::{Reading, Sample, SpecificForce};
+use crate::state::{RowVector, Target};
 use interface::mission::Quantity;
+use interface::{Navigation, Sensor};
 use nalgebra::{Matrix6, SMatrix, SVector};
+use sensors::Rows;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// Variance of an outlier's noise over that of any other, less one.
 const MORE: f64 = 99.0;
-/// Time after the first sample in which nothing is taken for an outlier, s: the first estimate is too far off for the slopes that it is
-/// updated with, and what it leaves is none of the sensors' doing.
-pub(crate) const SETTLING: f64 = 30.0;
+/// Standard deviations beyond which nothing is chance, nor an outlier of ten times the noise.
+const GROSS: f64 = 50.0;
+/// Samples of a sensor that make up its record.
+const RECORD: u32 = 24;
 /// Most rows that a sensor has.
-const MOST: usize = 6;
+const MOST: usize = Sensor::MOST_ROWS;
 
 /// What is edited, and how often it was.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -30,22 +41,79 @@ pub(crate) struct Editing {
     share: Option<f64>,
     /// Most samples of a sensor that are passed by one after the other.
     most: i32,
-    /// Epoch of the first sample, s.
-    first_s: Option<f64>,
-    in_a_row: [i32; Sensor::COUNT],
+    watched: [Watched; Sensor::COUNT],
+    /// Whether the mission has an accelerometer.
+    accelerometer: bool,
     outliers: i32,
     impossible: i32,
+}
+
+/// A sensor as it has done so far.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Watched {
+    /// Standard deviations of its rows, SI.
+    sigma: Rows,
+    /// One bit for each of its last samples, the newest lowest: set where it was suspected, and before the first.
+    suspected: u32,
+    /// Samples passed by since the last that fitted.
+    in_a_row: i32,
+    /// The last that was not passed by.
+    used: Option<Used>,
+}
+
+/// A sample that was used.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Used {
+    /// What was measured, SI.
+    z: Rows,
+    /// What it left: measured less what the estimate after it says, internal units.
+    left: Rows,
+}
+
+impl Watched {
+    fn new(sigma: Rows) -> Self {
+        Self {
+            sigma,
+            suspected: (1 << RECORD) - 1,
+            in_a_row: 0,
+            used: None,
+        }
+    }
+
+    /// Whether its samples have fitted, by and large: at most a third of them were suspected.
+    fn has_fitted(&self) -> bool {
+        3 * self.suspected.count_ones() <= RECORD
+    }
+
+    /// Whether a measurement is far from the last one used, whatever a filter thinks of either.
+    fn is_far(&self, z: &Rows, sensor: Sensor) -> bool {
+        self.used.is_some_and(|used| {
+            let mut rows = sensor.quantities().enumerate().take(MOST);
+            rows.any(|(row, quantity)| {
+                wrapped(z[row] - used.z[row], quantity).abs() > GROSS * 2.0_f64.sqrt() * self.sigma[row]
+            })
+        })
+    }
 }
 
 impl Editing {
     /// * `share`: of outliers, between 0 and 1; `None` to look for none.
     /// * `most`: samples of a sensor that may be passed by one after the other.
-    pub(crate) fn new(share: Option<f64>, most: i32) -> Self {
+    /// * `told`: the mission, what a user believes included.
+    pub(crate) fn new(share: Option<f64>, most: i32, told: &Navigation) -> Self {
+        let mut watched = [Watched::new(Rows::zeros()); Sensor::COUNT];
+        for known in &told.sensors {
+            let sigma = &mut watched[known.sensor as usize].sigma;
+            sigma
+                .iter_mut()
+                .zip(known.deviations())
+                .for_each(|(to, sigma)| *to = sigma);
+        }
         Self {
             share,
             most,
-            first_s: None,
-            in_a_row: [0; Sensor::COUNT],
+            watched,
+            accelerometer: told.accelerometer.is_some(),
             outliers: 0,
             impossible: 0,
         }
@@ -61,9 +129,8 @@ impl Editing {
         self.impossible
     }
 
-    /// Sensors whose sample cannot be: a range that is not positive, or anything that is no number.
+    /// Takes away what cannot be: a range that is not positive, or anything that is no number, of the accelerometer too.
     pub(crate) fn remove_impossible(&mut self, sample: &mut Cow<'_, Sample>, layout: Layout) {
-        self.first_s.get_or_insert(sample.time);
         for sensor in Sensor::ALL {
             if let (Some(_), Some(z)) = (layout.of_sensor(sensor), sample[sensor].seen()) {
                 let numbers = z.iter().take(sensor.rows()).all(|v| v.is_finite());
@@ -74,82 +141,154 @@ impl Editing {
                 }
             }
         }
+        let is_number = |force: &SpecificForce| force.alpha_c_bc().iter().all(|v| v.is_finite());
+        if self.accelerometer && sample.accelerometer.as_ref().is_some_and(|force| !is_number(force)) {
+            sample.to_mut().accelerometer = None;
+            self.impossible += 1;
+        }
     }
 
     /// Sensors whose sample is most likely an outlier; each is counted.
     ///
-    /// * `t_s`: epoch of the sample.
     /// * `step`: as the update with all of them has left it.
     /// * `nis`: of that update.
     /// * `excess`: tells by how much the covariance of position and velocity that counts was larger than that of the update, 6x6.
     /// * `r`: noise variances of the rows.
     pub(crate) fn find(
         &mut self,
-        t_s: f64,
+        sample: &Sample,
         step: &Step,
         nis: f64,
         excess: impl Fn() -> Option<Matrix6<f64>>,
         layout: Layout,
         r: &RowVector,
     ) -> Vec<Sensor> {
-        let settled = self.first_s.is_some_and(|first| t_s - first >= SETTLING);
-        let Some(share) = self.share.filter(|_| settled) else {
+        let Some(share) = self.share else {
             return Vec::new();
         };
         let odds = ((1.0 - share) / share).ln();
         let mut found = Vec::new();
         for sensor in Sensor::ALL {
-            let Some(rows) = layout.of_sensor(sensor).filter(|rows| step.measured.has(rows.start)) else {
+            let (Some(rows), Some(z)) = (layout.of_sensor(sensor), sample[sensor].seen()) else {
                 continue;
             };
             // The quadratic form alone must make up for the odds; that of a part is not above that of the whole.
-            let suspect = nis >= 2.0 * odds && is_outlier(step, rows, excess().as_ref(), r, odds);
-            let count = &mut self.in_a_row[sensor as usize];
-            if !suspect {
-                *count = 0;
-            } else if *count < self.most {
-                *count += 1;
+            let watched = &mut self.watched[sensor as usize];
+            let (outlier, gross) = if nis >= 2.0 * odds {
+                let seen = Seen::new(step, rows, excess().as_ref(), r);
+                (seen.is_outlier(odds), seen.is_gross())
+            } else {
+                (false, false)
+            };
+            let suspect = outlier || gross;
+            let doubted = suspect
+                && watched.in_a_row < self.most
+                && if watched.has_fitted() {
+                    let since = |used: Used| Seen::change(step, layout.of_sensor(sensor), &used.left, r);
+                    // That outliers are rare has been counted already.
+                    watched.used.is_none_or(|used| since(used).is_outlier(0.0))
+                } else {
+                    gross && watched.is_far(&z, sensor)
+                };
+            watched.suspected = (watched.suspected << 1 | u32::from(suspect)) & ((1 << RECORD) - 1);
+            if doubted {
+                watched.in_a_row += 1;
                 self.outliers += 1;
                 found.push(sensor);
+            } else if !suspect {
+                watched.in_a_row = 0;
             }
         }
         found
     }
-}
 
-/// Whether the rows of a sensor are more likely those of an outlier.
-///
-/// * `odds`: logarithm of the odds against one.
-fn is_outlier(
-    step: &Step,
-    rows: std::ops::Range<usize>,
-    excess: Option<&Matrix6<f64>>,
-    r: &RowVector,
-    odds: f64,
-) -> bool {
-    // Beyond the sensor's rows an identity and zeros, which change neither determinant nor quadratic form.
-    let mut s = SMatrix::<f64, MOST, MOST>::identity();
-    let mut more = SMatrix::<f64, MOST, MOST>::zeros();
-    let mut v = SVector::<f64, MOST>::zeros();
-    for (i, row) in rows.clone().enumerate().take(MOST) {
-        v[i] = step.innovation[row];
-        more[(i, i)] = MORE * r[row];
-        for (j, column) in rows.clone().enumerate().take(MOST) {
-            s[(i, j)] = step.s[(row, column)];
-            if let Some(excess) = excess {
-                let h = |row| step.h.fixed_view::<1, 6>(row, 0);
-                s[(i, j)] += (h(row) * excess * h(column).transpose())[0];
+    /// Takes note of what was used.
+    ///
+    /// * `step`: as the update with it has left it.
+    /// * `moved`: by how much update and law moved the target's nine states.
+    pub(crate) fn remember(&mut self, sample: &Sample, step: &Step, moved: &Target, layout: Layout) {
+        if self.share.is_none() {
+            return;
+        }
+        for sensor in Sensor::ALL {
+            if let (Some(rows), Some(z)) = (layout.of_sensor(sensor), sample[sensor].seen()) {
+                let mut left = Rows::zeros();
+                for (left, row) in left.iter_mut().zip(rows) {
+                    *left = step.innovation[row] - (step.h.row(row) * moved)[0];
+                }
+                self.watched[sensor as usize].used = Some(Used { z, left });
             }
         }
     }
-    let log_density = |s: SMatrix<f64, MOST, MOST>| {
-        let factor = s.cholesky()?;
-        let ln_root_det: f64 = factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
-        Some(-0.5 * v.dot(&factor.solve(&v)) - ln_root_det)
-    };
-    match (log_density(s), log_density(s + more)) {
-        (Some(plain), Some(outlier)) => outlier - plain > odds,
-        _ => false,
+}
+
+/// The rows of one sensor; beyond them an identity and zeros, which change neither determinant nor quadratic form.
+struct Seen {
+    innovation: SVector<f64, MOST>,
+    s: SMatrix<f64, MOST, MOST>,
+    /// What an outlier adds.
+    more: SMatrix<f64, MOST, MOST>,
+}
+
+impl Seen {
+    fn new(step: &Step, rows: Range<usize>, excess: Option<&Matrix6<f64>>, r: &RowVector) -> Self {
+        let mut seen = Self {
+            innovation: SVector::zeros(),
+            s: SMatrix::identity(),
+            more: SMatrix::zeros(),
+        };
+        for (i, row) in rows.clone().enumerate().take(MOST) {
+            seen.innovation[i] = step.innovation[row];
+            seen.more[(i, i)] = MORE * r[row];
+            for (j, column) in rows.clone().enumerate().take(MOST) {
+                seen.s[(i, j)] = step.s[(row, column)];
+                if let Some(excess) = excess {
+                    let h = |row| step.h.fixed_view::<1, 6>(row, 0);
+                    seen.s[(i, j)] += (h(row) * excess * h(column).transpose())[0];
+                }
+            }
+        }
+        seen
+    }
+
+    /// What has changed since the last sample used, if the filter's motion is right: the noise of two samples.
+    ///
+    /// * `left`: what the last one left.
+    fn change(step: &Step, rows: impl IntoIterator<Item = Range<usize>>, left: &Rows, r: &RowVector) -> Self {
+        let mut seen = Self {
+            innovation: SVector::zeros(),
+            s: SMatrix::identity(),
+            more: SMatrix::zeros(),
+        };
+        for (i, row) in rows.into_iter().flatten().enumerate().take(MOST) {
+            seen.innovation[i] = step.innovation[row] - left[i];
+            seen.s[(i, i)] = 2.0 * r[row];
+            seen.more[(i, i)] = MORE * r[row];
+        }
+        seen
+    }
+
+    /// Whether they are more likely those of an outlier.
+    ///
+    /// * `odds`: logarithm of the odds against one.
+    fn is_outlier(&self, odds: f64) -> bool {
+        let v = &self.innovation;
+        let log_density = |s: SMatrix<f64, MOST, MOST>| {
+            let factor = s.cholesky()?;
+            let ln_root_det: f64 = factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
+            Some(-0.5 * v.dot(&factor.solve(v)) - ln_root_det)
+        };
+        match (log_density(self.s), log_density(self.s + self.more)) {
+            (Some(plain), Some(outlier)) => outlier - plain > odds,
+            _ => false,
+        }
+    }
+
+    /// Whether one of them is beyond anything that S allows for.
+    fn is_gross(&self) -> bool {
+        let variances = self.s.diagonal();
+        let mut rows = self.innovation.iter().zip(&variances);
+        rows.any(|(v, s)| v.abs() > GROSS * s.sqrt())
     }
 }
 
@@ -172,70 +311,139 @@ mod tests {
         let mut step = Step::blank(1.0, TargetMatrix::identity());
         step.measured.mark(0..3);
         step.innovation[0] = v;
+        step.h[(0, 0)] = 1.0;
         (0..3).for_each(|i| step.s[(i, i)] = 2.0);
         step
     }
 
+    const LIDAR: usize = Sensor::Lidar as usize;
+
+    /// A LiDAR of unit noise whose samples have fitted.
     fn settled(share: Option<f64>) -> Editing {
-        let mut editing = Editing::new(share, 3);
-        editing.first_s = Some(0.0);
+        let told = lidar();
+        let mut editing = Editing::new(share, 3, &told);
+        editing.watched[LIDAR].sigma = Rows::repeat(1.0);
+        editing.watched[LIDAR].suspected = 0;
         editing
     }
 
-    fn finds(editing: &mut Editing, v: f64, excess: Option<&Matrix6<f64>>) -> bool {
+    fn lidar() -> Navigation {
+        let mission = interface::mission::embedded("leo_venting").unwrap();
+        mission.mission().unwrap().navigation()
+    }
+
+    /// * `z`: the range that is measured.
+    /// * `v`: by how much it is off.
+    fn finds_at(editing: &mut Editing, z: f64, v: f64, excess: Option<&Matrix6<f64>>) -> bool {
         let layout = Layout::new(&[Sensor::Lidar]);
-        !editing
-            .find(
-                100.0,
-                &step(v),
-                0.5 * v * v,
-                || excess.copied(),
-                layout,
-                &RowVector::repeat(1.0),
-            )
-            .is_empty()
+        let mut sample = Sample::blank(1, 1.0);
+        sample[Sensor::Lidar] = Reading::of(&[z, 0.0, 0.0]);
+        let (step, r) = (step(v), RowVector::repeat(1.0));
+        let found = editing.find(&sample, &step, 0.5 * v * v, || excess.copied(), layout, &r);
+        if found.is_empty() {
+            // It takes nine tenths of a range in.
+            editing.remember(&sample, &step, &(Target::x() * (0.9 * v)), layout);
+        }
+        !found.is_empty()
+    }
+
+    fn finds(editing: &mut Editing, v: f64, excess: Option<&Matrix6<f64>>) -> bool {
+        finds_at(editing, 1000.0, v, excess)
     }
 
     /// Three rows, of which one is off by v: -v^2 / 4 - 3/2 ln 2 against -v^2 / 202 - 3/2 ln 101, and odds of 99.
     #[test]
     fn an_outlier_is_what_is_more_likely_one() {
         let edge = ((99.0_f64.ln() + 1.5 * (101.0_f64 / 2.0).ln()) / (0.25 - 1.0 / 202.0)).sqrt();
+        assert!(!finds(&mut settled(Some(0.01)), edge - 1e-9, None));
         let mut editing = settled(Some(0.01));
-        assert!(!finds(&mut editing, edge - 1e-9, None));
         assert!(finds(&mut editing, edge + 1e-9, None));
         assert_eq!(editing.outliers(), 1);
         assert!(!finds(&mut settled(None), 1e9, None));
     }
 
+    /// Sixteen of twenty-four: from then on a third or less has not fitted.
     #[test]
-    fn nothing_is_an_outlier_before_the_filter_has_settled() {
-        let mut editing = Editing::new(Some(0.01), 3);
-        editing.first_s = Some(100.0 - SETTLING + 1.0);
-        assert!(!finds(&mut editing, 1e3, None));
-        editing.first_s = Some(100.0 - SETTLING);
-        assert!(finds(&mut editing, 1e3, None));
+    fn nothing_is_doubted_by_a_filter_whose_samples_have_not_fitted() {
+        let mut editing = settled(Some(0.01));
+        editing.watched[LIDAR] = Watched::new(Rows::repeat(1.0));
+        for _ in 0..15 {
+            assert!(!finds(&mut editing, 0.5, None));
+        }
+        assert!(!finds(&mut editing, 30.0, None));
+        assert!(!finds(&mut editing, 0.5, None) && !finds(&mut editing, 0.5, None));
+        assert!(finds(&mut editing, 30.0, None));
+        // Lost: after three it takes what comes, and eight that did not fit are too many to begin again after the first that does.
+        for _ in 0..20 {
+            finds(&mut editing, 30.0, None);
+        }
+        assert!(!finds(&mut editing, 0.5, None) && !finds(&mut editing, 30.0, None));
+        assert_eq!(editing.outliers(), 3);
+    }
+
+    /// Off by 30 and by 29 before, of which the update takes a tenth: a filter that lags. One that jumps by as much is none.
+    #[test]
+    fn what_goes_on_as_the_sample_before_is_no_outlier() {
+        let layout = Layout::new(&[Sensor::Lidar]);
+        for (before, doubted) in [(29.0, false), (33.0, false), (0.0, true), (-27.0, true)] {
+            let mut editing = settled(Some(0.01));
+            let mut sample = Sample::blank(1, 1.0);
+            sample[Sensor::Lidar] = Reading::of(&[1000.0, 0.0, 0.0]);
+            editing.remember(&sample, &step(before), &(Target::x() * (0.1 * before)), layout);
+            assert_eq!(finds(&mut editing, 30.0, None), doubted, "{before}");
+        }
+    }
+
+    #[test]
+    fn without_a_record_only_what_is_beyond_all_bounds_and_unlike_the_sample_before_is_doubted() {
+        let start = || {
+            let mut editing = settled(Some(0.01));
+            editing.watched[LIDAR] = Watched::new(Rows::repeat(1.0));
+            editing
+        };
+        let (s, jump) = (50.0 * 2.0_f64.sqrt(), 50.0 * 2.0_f64.sqrt());
+        for (v, moved, doubted) in [
+            (s + 0.1, jump + 0.1, true),
+            (s - 0.1, jump + 0.1, false),
+            (s + 0.1, jump - 0.1, false),
+            (1e6, 0.0, false),
+            (1e6, -1e6, true),
+        ] {
+            let mut editing = start();
+            // There is nothing before the first.
+            assert!(!finds_at(&mut editing, 1000.0, 1e6, None));
+            assert_eq!(finds_at(&mut editing, 1000.0 + moved, v, None), doubted, "{v} {moved}");
+        }
     }
 
     #[test]
     fn not_more_than_three_in_a_row_are_passed_by() {
         let mut editing = settled(Some(0.01));
         let mut found = |v: f64| finds(&mut editing, v, None);
-        let off: Vec<bool> = (0..9).map(|_| found(100.0)).collect();
-        assert_eq!(off, [true, true, true, false, false, false, false, false, false]);
+        let off: Vec<bool> = (0..6).map(|_| found(30.0)).collect();
+        assert_eq!(off, [true, true, true, false, false, false]);
         // One that fits, and the filter may doubt again.
-        assert!(!found(0.5) && found(100.0));
+        assert!(!found(0.5) && found(30.0));
         assert_eq!(editing.outliers(), 4);
     }
 
     #[test]
     fn a_filter_that_knows_less_takes_more() {
-        let mut step = step(20.0);
-        step.h[(0, 0)] = 1.0;
+        let step = step(20.0);
         let layout = Layout::new(&[Sensor::Lidar]);
         let unsure = Matrix6::from_diagonal_element(400.0);
+        let mut sample = Sample::blank(1, 1.0);
+        sample[Sensor::Lidar] = Reading::of(&[1000.0, 0.0, 0.0]);
         let found = |excess: Option<&Matrix6<f64>>| {
             let mut editing = settled(Some(0.01));
-            editing.find(100.0, &step, 200.0, || excess.copied(), layout, &RowVector::repeat(1.0))
+            editing.find(
+                &sample,
+                &step,
+                200.0,
+                || excess.copied(),
+                layout,
+                &RowVector::repeat(1.0),
+            )
         };
         assert_eq!(found(None), [Sensor::Lidar]);
         assert_eq!(found(Some(&unsure)), []);
@@ -244,7 +452,7 @@ mod tests {
     #[test]
     fn what_cannot_be_is_passed_by() {
         let layout = Layout::new(&[Sensor::Lidar, Sensor::Camera]);
-        let mut editing = Editing::new(None, 3);
+        let mut editing = Editing::new(None, 3, &lidar());
         for (z, lost) in [
             ([100.0, 0.1, 0.2], false),
             ([0.0, 0.1, 0.2], true),
@@ -261,6 +469,11 @@ mod tests {
             assert_ne!(sample[Sensor::Camera], Reading::Lost);
         }
         assert_eq!(editing.impossible(), 4);
+        let mut sample = Sample::blank(1, 1.0);
+        sample.accelerometer = Some(SpecificForce::Instant(nalgebra::Vector3::new(0.0, f64::NAN, 0.0)));
+        let mut sample = Cow::Owned(sample);
+        editing.remove_impossible(&mut sample, layout);
+        assert!(sample.accelerometer.is_none() && editing.impossible() == 5);
     }
 
     #[test]

@@ -201,6 +201,7 @@ impl Navigator {
             run: settings.run,
         };
         let law = Law::new(settings.filter, &setup)?;
+        let ours = filter.ours && !law.reproduces();
         let gain = match filter.update {
             Update::Kalman => None,
             Update::ConstantGain(gain) => Some(gain(&setup)?),
@@ -210,8 +211,8 @@ impl Navigator {
             frame: told.frame,
             layout,
             start_s: start_time,
-            estimator: Kind::new(&told, b, filter.motion, gain, law.acceleration())?,
-            editing: editing(filter, &law, b)?,
+            estimator: Kind::new(&told, b, filter.motion, ours, gain, law.acceleration())?,
+            editing: editing(filter, ours, b, &told)?,
             law,
             divergence: Divergence {
                 limit: Positive.check("divergence.nis", b.divergence_nis, "")?,
@@ -288,7 +289,7 @@ impl Navigator {
         if let Some(all) = seen {
             // Asked for only where there is something to doubt.
             let excess = || self.law.excess(&f.fixed_view::<6, 6>(0, 0).into_owned());
-            let outliers = self.editing.find(t_s, &step, all.nis, excess, self.layout, &self.r);
+            let outliers = self.editing.find(&sample, &step, all.nis, excess, self.layout, &self.r);
             if !outliers.is_empty() {
                 outliers
                     .into_iter()
@@ -304,11 +305,14 @@ impl Navigator {
         // A law learns from what is measured of the target and of how long it took: a fast accelerometer must not cut that up.
         let whole = Between::with(self.between.take(), &step);
         let due = self.layout.any_due(&sample);
+        let mut moved = step.correction;
         if due {
             (step.dt, step.f, step.correction) = (whole.dt, whole.f, whole.correction);
             self.law.observe(&step)?;
             if let Some(own) = self.law.replacement() {
                 estimator.shift(&own.shift);
+                let mut relative = moved.fixed_rows_mut::<6>(0);
+                relative += own.shift;
                 if let Some(defect) = estimator.defect(t_s).or_else(|| own.defect(t_s)) {
                     return Err(defect);
                 }
@@ -317,6 +321,7 @@ impl Navigator {
         } else {
             self.between = Some(whole);
         }
+        self.editing.remember(&sample, &step, &moved, self.layout);
         self.law.look_ahead(&estimator.relative());
         let Reported { x, p_target, sigma } = estimator.report(&sample, &self.law);
         self.estimate = Estimate {
@@ -404,7 +409,8 @@ impl Navigator {
         self.editing.outliers()
     }
 
-    /// Samples of a sensor that were passed by since they cannot be: a range that is not positive, a number that is none.
+    /// Samples of a sensor, the accelerometer included, that were passed by since they cannot be: a range that is not positive, a
+    /// number that is none.
     pub fn impossible(&self) -> i32 {
         self.editing.impossible()
     }
@@ -430,21 +436,18 @@ fn hindsight(now: &Untold, before: &Untold, gap_s: f64, units: &Units) -> Hindsi
 
 /// How a filter edits its measurements.
 ///
+/// * `ours`: whether it reproduces no paper, and so edits unless told otherwise.
+///
 /// # Errors
 /// When a parameter is out of range.
-fn editing(filter: &FilterEntry, law: &Law, b: &Beliefs) -> Result<Editing, FilterError> {
+fn editing(filter: &FilterEntry, ours: bool, b: &Beliefs, told: &Navigation) -> Result<Editing, FilterError> {
     let refused = |name: &str, value: f64, permitted: &str| FilterError::OutOfRange {
         name: name.into(),
         value,
         unit: "",
         permitted: permitted.into(),
     };
-    let on = match b.editing_mode {
-        -1 => filter.edits && !law.reproduces(),
-        0 => false,
-        1 => true,
-        other => return Err(refused("editing.mode", f64::from(other), "-1, 0 or 1")),
-    };
+    let on = Beliefs::switched("editing.mode", b.editing_mode, ours)?;
     let share = Positive.check("editing.outlier_share", b.editing_outlier_share, "")?;
     if share >= 0.5 {
         return Err(refused("editing.outlier_share", share, "between 0 and 0.5"));
@@ -455,7 +458,7 @@ fn editing(filter: &FilterEntry, law: &Law, b: &Beliefs) -> Result<Editing, Filt
     }
     // Without a covariance there is no likelihood.
     let looks = on && matches!(filter.update, Update::Kalman);
-    Ok(Editing::new(looks.then_some(share), b.editing_most_in_a_row))
+    Ok(Editing::new(looks.then_some(share), b.editing_most_in_a_row, told))
 }
 
 /// An innovation as a law sees it that keeps filters of its own: the residual is of the mean, which is the law's already.

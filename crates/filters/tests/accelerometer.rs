@@ -236,3 +236,65 @@ fn a_sample_lost_in_a_burn_leaves_the_filter_consistent() {
         assert!((0.3..1.7).contains(&near), "{period} s: NEES about the burns {near}");
     }
 }
+
+/// Nothing is measured but the chaser's thrust, every `period` seconds of `SECONDS`: how far the noise of the readings moves the
+/// estimate, as the mean's propagation has it, against what the covariance says.
+#[test]
+fn noise_of_a_reading_that_drives_is_in_the_covariance() {
+    const RUNS: u64 = 300;
+    let mut told = leo();
+    (told.p0.position, told.p0.velocity, told.p0.bias) = (1e-6, 1e-9, 1e-15);
+    told.chaser_q_c_m2_s3 = 0.0;
+    told.accelerometer.as_mut().unwrap().bias_sigma_m_s2 = 0.0;
+    let mut start = Truth::new(0).1;
+    start.fixed_rows_mut::<3>(15).fill(BIAS);
+    let dcm_bc_n = nalgebra::Rotation3::from_euler_angles(0.3, -1.1, 2.0).into_inner();
+    // A reading drives from its epoch on: the last one, at the end, drives no more.
+    let fly = |mode: i32, period: i32, noise: &mut dyn FnMut() -> f64| {
+        let mut settings = Settings {
+            filter: FILTERS.iter().position(|f| f.name == "snc").unwrap(),
+            ..Settings::default()
+        };
+        *settings.tunable_mut("snc", "q").unwrap() = Value::Real(1e-12);
+        settings.beliefs.accelerometer_noise_enters = mode;
+        let mut nav = Navigator::new(&told, &settings, 0.0).unwrap();
+        for k in 1..=60 {
+            let mut sample = Sample {
+                dcm_bc_n,
+                ..Sample::blank(k, f64::from(k))
+            };
+            if k % period == 0 {
+                let alpha = Vector3::new(4e-3, -7e-3, 2e-3).map(|a| a + BIAS + noise());
+                sample.accelerometer = Some(SpecificForce::Instant(alpha));
+            }
+            nav.process(&sample, &start).unwrap();
+        }
+        nav.estimate().clone()
+    };
+    for period in [1, 4] {
+        let still = fly(-1, period, &mut || 0.0);
+        let p = still.p_target.fixed_view::<6, 6>(0, 0).cholesky().unwrap();
+        let (mut nees, mut v_c) = (0.0, 0.0);
+        for run in 0..RUNS {
+            let mut g = stream(9, run, Source::Accelerometer);
+            let x = fly(-1, period, &mut || SIGMA_ACCELEROMETER * normal(&mut g)).x - still.x;
+            let relative = x.fixed_rows::<6>(0).into_owned();
+            nees += relative.dot(&p.solve(&relative)) / 6.0 / RUNS as f64;
+            v_c += x.fixed_rows::<3>(12).norm_squared() / 3.0 / RUNS as f64;
+            // The target does not move.
+            assert!((x.fixed_rows::<3>(3) + x.fixed_rows::<3>(12)).norm() < 1e-6 * x.fixed_rows::<3>(12).norm());
+        }
+        // Three sigma over the root of N, of chi-square of six and of three.
+        let runs = RUNS as f64;
+        assert!(
+            (nees - 1.0).abs() < 3.0 * (2.0 / (6.0 * runs)).sqrt(),
+            "every {period} s: {nees}"
+        );
+        assert!((v_c / still.sigma[12].powi(2) - 1.0).abs() < 3.0 * (2.0 / (3.0 * runs)).sqrt());
+        // Readings of variance sigma^2, held for the period: sigma^2 period T.
+        let held = f64::from(60 - period);
+        let by_hand = SIGMA_ACCELEROMETER.powi(2) * f64::from(period) * held;
+        assert!((still.sigma[12].powi(2) / by_hand - 1.0).abs() < 0.01);
+        assert!(fly(0, period, &mut || 0.0).sigma[12].powi(2) < 0.01 * by_hand);
+    }
+}

@@ -16,6 +16,8 @@ pub struct Bounds<T> {
     pub positive: bool,
     /// Also -1, meaning the mission's own.
     pub own_default: bool,
+    /// Also infinities and NaN, which no other variable takes.
+    pub any_number: bool,
 }
 
 impl<T> Default for Bounds<T> {
@@ -25,6 +27,7 @@ impl<T> Default for Bounds<T> {
             max: None,
             positive: false,
             own_default: false,
+            any_number: false,
         }
     }
 }

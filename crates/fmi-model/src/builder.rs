@@ -345,6 +345,12 @@ impl<M> Row<'_, M, Real> {
         self
     }
 
+    /// Infinities and NaN may be set, too: an input that another one says to be of no use at times.
+    pub fn any_number(mut self) -> Self {
+        self.kind.bounds.any_number = true;
+        self
+    }
+
     /// Unit for people: `deg` for `rad`, `deg/s` for `rad/s`. Values stay in the unit.
     pub fn display_unit(mut self, display_unit: &'static str) -> Self {
         self.kind.display_unit = Some(display_unit);

@@ -32,13 +32,12 @@ pub trait Checked: Scalar {
 
 impl Checked for f64 {
     fn check<M>(value: &Self, entry: Entry<'_, M>) -> Result<(), InstanceError> {
-        if !value.is_finite() {
-            return Err(InstanceError::NotFinite {
+        match &entry.row.typed {
+            Typed::Real { bounds, .. } if !value.is_finite() && bounds.any_number => Ok(()),
+            _ if !value.is_finite() => Err(InstanceError::NotFinite {
                 what: format!("'{}'", entry.name()),
                 value: *value,
-            });
-        }
-        match &entry.row.typed {
+            }),
             Typed::Real { bounds, .. } if !bounds.admit(*value) => {
                 let unit = entry.unit().filter(|unit| *unit != "1").unwrap_or_default();
                 Err(InstanceError::OutOfBounds {

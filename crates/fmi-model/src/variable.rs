@@ -237,7 +237,7 @@ pub enum Typed<M> {
         unit: Option<Each<String>>,
         /// Unit for people, e.g. `deg` for `rad`.
         display_unit: Option<&'static str>,
-        /// Values that may be set; they must be finite, too.
+        /// Values that may be set; they must be finite, too, unless [`Bounds::any_number`] says otherwise.
         bounds: Bounds<f64>,
     },
     /// A 32-bit integer: `fmi2Integer`, `fmi3Int32`.

@@ -19,6 +19,7 @@ struct Counter {
     rate: f64,
     left: [i32; 2],
     initialised: i32,
+    heard: f64,
 }
 
 impl Model for Counter {
@@ -39,6 +40,7 @@ impl Model for Counter {
             t.real("rate").input().unit("1/s").rw(|m| m.rate, |m, v| m.rate = v);
             t.integer("left").output().vector(2, |m, i| m.left[i]);
             t.integer("initialised").local().get(|m| m.initialised);
+            t.real("heard").input().any_number().rw(|m| m.heard, |m, v| m.heard = v);
             t.build()
         })
     }
@@ -68,6 +70,7 @@ const FROM: [u32; 2] = [0, 1];
 const RATE: [u32; 1] = [2];
 const LEFT: [u32; 2] = [3, 4];
 const INITIALISED: [u32; 1] = [5];
+const HEARD: [u32; 1] = [6];
 
 fn integers(counter: &mut Instance<Counter>, references: &[u32]) -> Vec<i32> {
     let mut values = Vec::new();
@@ -98,8 +101,8 @@ fn a_refused_set_changes_nothing() {
             "'from[1]' (value reference 0) is of type Integer",
         ),
         (
-            counter.set(&[6], |_| 1),
-            "no variable has value reference 6; there are 6, counted from 0",
+            counter.set(&[7], |_| 1),
+            "no variable has value reference 7; there are 7, counted from 0",
         ),
         (
             counter.set(&LEFT, |_| 1),
@@ -110,6 +113,8 @@ fn a_refused_set_changes_nothing() {
     for (answer, said) in wrong {
         assert_eq!(answer.unwrap_err().to_string(), said);
     }
+    // But where a number may be none.
+    counter.set(&HEARD, |_| f64::NAN).unwrap();
 }
 
 #[test]

@@ -106,6 +106,11 @@ impl Port {
         self.pick(self.about, element)
     }
 
+    /// Whether it may hold anything, NaN included, while another port says that it is not valid.
+    pub fn at_times_invalid(&self) -> bool {
+        matches!(self.part, Some((_, Part::Measured(_)))) || self.name == "accelerometer.alpha_c_bc"
+    }
+
     fn pick(&self, list: &'static [&'static str], element: usize) -> &'static str {
         let group = if list.len() == self.shape.len() { 1 } else { 3 };
         list.get(element / group).or(list.first()).copied().unwrap_or_default()
@@ -323,7 +328,7 @@ pub const PORTS: &[Port] = &[
         &["updates at which the law's solver found no solution, so that the last process noise stayed"]),
     row(Estimate, "edited.outliers", Integer, Scalar, &[], &["samples of a sensor that were passed by as most likely outliers"]),
     row(Estimate, "edited.impossible", Integer, Scalar, &[],
-        &["samples of a sensor that were passed by since they cannot be: a range that is not positive, a number that is none"]),
+        &["samples of a sensor, the accelerometer included, that were passed by since they cannot be: a range that is not positive, a number that is none"]),
     rows(Of::Camera, Innovation(0), "innov.camera", Vector(2), &["rad"], &[
         "azimuth of the camera, measured minus predicted", "elevation of the camera, measured minus predicted",
     ]),

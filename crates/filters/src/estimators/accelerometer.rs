@@ -15,6 +15,10 @@ pub(super) struct Accelerometer {
     units: Units,
     gate: f64,
     sigma: f64,
+    /// Whether the noise of a reading of the instant that drives enters the covariance.
+    noise_enters: bool,
+    /// How long the newest reading of the instant has driven.
+    held_for: f64,
     /// Drives the steps until the next reading; `None` when below the gate or before the first.
     held: Option<Thrust>,
     mean: Mean,
@@ -67,11 +71,13 @@ pub(super) struct Blur {
 }
 
 impl Accelerometer {
-    pub(super) fn new(known: &KnownAccelerometer, units: Units) -> Self {
+    pub(super) fn new(known: &KnownAccelerometer, noise_enters: bool, units: Units) -> Self {
         Self {
             units,
             gate: known.gate_m_s2 / units.acceleration(),
             sigma: known.sigma_m_s2 / units.acceleration(),
+            noise_enters,
+            held_for: 0.0,
             held: None,
             mean: Mean::default(),
         }
@@ -187,11 +193,24 @@ impl Accelerometer {
     }
 
     /// The last reading over a gap at whose end there is none, or one of the instant.
+    ///
+    /// Its error n ~ N(0, sigma^2 I) is the same for as long as it is held: after a time t, n t in velocity. Where other sensors
+    /// sample meanwhile, that is made of parts as if they were independent, each with as much as t^2 grows by.
     fn held_over(&mut self, dt: f64, bias: &Vector3<f64>) -> Driven {
         let mut driven = Driven {
             thrust: self.held,
             blur: None,
         };
+        if self.noise_enters && self.held.is_some() && self.mean.last_s.is_none() {
+            let before = self.held_for;
+            self.held_for += dt;
+            driven.blur = Some(Blur {
+                position_n: Vector3::zeros(),
+                velocity_n: Vector3::zeros(),
+                acceleration: self.sigma * (self.held_for.powi(2) - before.powi(2)).sqrt() / dt,
+                interval: dt,
+            });
+        }
         if let (Some(held), Some(_)) = (&self.held, self.mean.last_s) {
             let velocity_n = held.dcm_n_bc * (held.alpha_c_bc - bias) * dt;
             self.mean.credited_n += velocity_n;
@@ -209,6 +228,7 @@ impl Accelerometer {
     pub(super) fn take(&mut self, sample: &Sample) {
         if let Some(force @ SpecificForce::Instant(_)) = &sample.accelerometer {
             let alpha = self.reading(force);
+            self.held_for = 0.0;
             self.held = (alpha.norm() >= self.gate).then(|| Thrust {
                 alpha_c_bc: alpha,
                 dcm_n_bc: sample.dcm_bc_n.transpose(),

@@ -24,19 +24,21 @@ impl Kind {
     /// The estimator of a mission's frame.
     ///
     /// * `told`: the mission, what a user believes included.
+    /// * `motion`: dynamics that the filter asks for; `ours`: whether it reproduces no paper.
     /// * `gain`: set for a constant gain in place of that of a covariance.
     ///
     /// # Errors
-    /// When the mission tells of something that the frame cannot use.
+    /// When the mission tells of something that the frame cannot use, or a belief is out of range.
     pub(crate) fn new(
         told: &Navigation,
         beliefs: &Beliefs,
         motion: Motion,
+        ours: bool,
         gain: Option<ConstantGain>,
         acceleration: AccelerationModel,
     ) -> Result<Self, FilterError> {
         Ok(match told.frame {
-            Frame::Inertial => Self::Inertial(Box::new(InertialState::new(told, beliefs, acceleration)?)),
+            Frame::Inertial => Self::Inertial(Box::new(InertialState::new(told, beliefs, ours, acceleration)?)),
             Frame::Lvlh => Self::Lvlh(Box::new(LvlhState::new(told, motion, gain, acceleration)?)),
         })
     }

@@ -105,11 +105,14 @@ fn update_all(core: &mut Gaussian, stack: &Stack, step: &mut Step) -> Result<f64
 }
 
 impl InertialState {
+    /// * `ours`: as of [`crate::laws::FilterEntry`].
+    ///
     /// # Errors
-    /// When the mission tells of something that cannot be used.
+    /// When the mission tells of something that cannot be used, or a belief is out of range.
     pub(super) fn new(
         told: &Navigation,
         beliefs: &Beliefs,
+        ours: bool,
         acceleration: AccelerationModel,
     ) -> Result<Self, FilterError> {
         let (units, layout) = (Units::of(&told.units), Layout::of(told));
@@ -120,6 +123,8 @@ impl InertialState {
         let (beta, bias_walk) = told
             .accelerometer
             .map_or((0.0, 0.0), |s| (1.0 / s.bias_time_constant_s, s.bias_sigma_m_s2));
+        let noise_enters = beliefs.accelerometer_noise_enters;
+        let noise_enters = Beliefs::switched("accelerometer.noise_enters", noise_enters, ours)?;
         Ok(Self {
             units,
             rotating: rotating.transpose()?,
@@ -139,7 +144,7 @@ impl InertialState {
             accelerometer: told
                 .accelerometer
                 .as_ref()
-                .map(|known| Accelerometer::new(known, units)),
+                .map(|known| Accelerometer::new(known, noise_enters, units)),
             told: Manoeuvres::of(told)?,
             initial_p: InitialSigma {
                 position: told.p0.position / units.length,
@@ -505,5 +510,30 @@ impl Estimator for InertialState {
     fn defect(&self, t_s: f64) -> Option<FilterError> {
         let core = self.core.as_ref()?;
         defect(core.x.iter(), core.p.iter(), core.p.diagonal().iter().copied(), t_s)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// r_t = r_tc + r_c and v_t likewise carry nothing of what is not known of the chaser's thrust.
+    #[test]
+    fn an_unsure_thrust_leaves_the_target_alone() {
+        let mut p = StateMatrix::zeros();
+        let unknown = Blur {
+            position_n: Vector3::new(0.3, -0.1, 0.2),
+            velocity_n: Vector3::new(0.01, 0.03, -0.02),
+            acceleration: 0.5,
+            interval: 2.0,
+        };
+        blur(&mut p, &unknown);
+        let mut to_target = SMatrix::<f64, 6, N>::zeros();
+        to_target.fixed_view_mut::<6, 6>(0, 0).fill_with_identity();
+        to_target.fixed_view_mut::<6, 6>(0, idx::R_C.start).fill_with_identity();
+        assert!((to_target * p).amax() < 1e-15);
+        // (a t)^2 and the square of what is added along x; with position a t^2 / 2 times a t.
+        assert!((p[(idx::V_C.start, idx::V_C.start)] - 1.0001).abs() < 1e-12);
+        assert!((p[(idx::R_C.start, idx::V_C.start)] - 1.0).abs() < 1e-12);
     }
 }

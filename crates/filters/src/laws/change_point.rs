@@ -14,7 +14,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "quiet filter with hypotheses of velocity changes at past times, weighed by the data",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: true,
+    ours: true,
     bound: false,
     tunables: &[QUIET, RATE, WINDOW, DECIDED, DIRECTIONS, SCHEDULE],
     presets: &[CONSTANTS],

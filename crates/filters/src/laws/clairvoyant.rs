@@ -15,7 +15,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "bound, told by the truth: knows all that pushes the target, no acceleration state",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: true,
+    ours: true,
     bound: true,
     tunables: &[Tunable {
         name: "q",

@@ -26,7 +26,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "a bank of snc filters half a decade of q apart, weighed by a conic programme with bounds on q; or its density by regression",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: true,
+    ours: true,
     bound: false,
     tunables: &[
         Tunable {

@@ -15,7 +15,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "dynamic model compensation: first-order Gauss-Markov acceleration",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: false,
+    ours: true,
     bound: false,
     tunables: &[
         Tunable {

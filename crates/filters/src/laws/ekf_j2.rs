@@ -15,7 +15,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "nonlinear J2 relative dynamics about the target's known orbit, constant Q (Pesce, Silvestrini and Lavagna)",
     motion: Motion::J2,
     update: Update::Kalman,
-    edits: false,
+    ours: false,
     bound: false,
     tunables: &[Q_POSITION, Q_VELOCITY],
     presets: &[Preset {

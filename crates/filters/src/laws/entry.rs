@@ -46,8 +46,9 @@ pub struct FilterEntry {
     pub motion: Motion,
     /// Its update.
     pub update: Update,
-    /// Whether it looks for outliers unless told otherwise; what reproduces a paper does not.
-    pub edits: bool,
+    /// Whether it reproduces no paper: unless told otherwise it looks for outliers, and lets the accelerometer's noise enter its
+    /// covariance.
+    pub ours: bool,
     /// Whether it is no filter but a bound: told by the truth what nothing on board knows, to hold laws against.
     pub bound: bool,
     /// Parameters it offers.

@@ -26,7 +26,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "bank of velocity-change hypotheses, white accelerations by the decade and walking accelerations",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: true,
+    ours: true,
     bound: false,
     tunables: &[QUIET, RATE, WINDOW, DECIDED, DIRECTIONS, SCHEDULE, MEMORY],
     presets: &[CONSTANTS],

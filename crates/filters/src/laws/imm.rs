@@ -14,7 +14,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "interacting multiple models over snc filters a decade of q apart (Blom and Bar-Shalom)",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: true,
+    ours: true,
     bound: false,
     tunables: &[LOWEST, MEMBERS, SOJOURN],
     presets: &[CONSTANTS],

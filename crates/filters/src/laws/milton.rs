@@ -27,7 +27,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "innovation correlation adapts the jerk density (Mamich and Zanetti)",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: false,
+    ours: false,
     bound: false,
     tunables: &[
         M_B,

@@ -13,7 +13,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "multiple-model adaptive estimation over snc filters a decade of q apart (Magill)",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: true,
+    ours: true,
     bound: false,
     tunables: &[LOWEST, MEMBERS, MEMORY],
     presets: &[CONSTANTS],

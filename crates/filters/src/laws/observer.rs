@@ -18,7 +18,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "constant-gain observer with a learning radial-basis network, no covariance (Pesce, Silvestrini and Lavagna)",
     motion: Motion::OfFrame,
     update: Update::ConstantGain(gain),
-    edits: false,
+    ours: false,
     bound: false,
     tunables: &network::with::<2, 11>([
         Tunable {

@@ -22,7 +22,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "a radial-basis network learns the disturbance, innovations adapt Q (Pesce, Silvestrini and Lavagna)",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: false,
+    ours: false,
     bound: false,
     tunables: &network::with::<6, 15>([
         Q_POSITION,

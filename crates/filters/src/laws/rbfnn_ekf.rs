@@ -18,7 +18,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "a radial-basis network learns the disturbance, constant Q (Pesce, Silvestrini and Lavagna)",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: false,
+    ours: false,
     bound: false,
     tunables: &network::with::<2, 11>([Q_POSITION, Q_VELOCITY]),
     presets: &[

@@ -14,7 +14,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "state noise compensation: constant white-acceleration density, no acceleration state",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: false,
+    ours: true,
     bound: false,
     tunables: &[Tunable {
         name: "q",

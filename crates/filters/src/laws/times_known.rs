@@ -14,7 +14,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "bound, told by the truth: knows when the target is pushed; white acceleration then and at other times, no state",
     motion: Motion::OfFrame,
     update: Update::Kalman,
-    edits: true,
+    ours: true,
     bound: true,
     tunables: &[
         Tunable {

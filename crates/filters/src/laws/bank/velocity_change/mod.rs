@@ -19,7 +19,6 @@ mod watched;
 use super::centre::{Shared, white};
 use super::member::Member;
 use super::mixture::{Mixture, Moments};
-use crate::editing::SETTLING;
 use crate::units::Units;
 use directions::{Axes, Directions};
 use hypothesis::{Hypothesis, NEGLIGIBLE, Part, SIZES};
@@ -32,6 +31,9 @@ use watched::{Watched, found};
 const CHANGES: [f64; SIZES] = [1e-4, 1e-3, 1e-2, 1e-1, 1.0];
 /// Changes of each size that are expected in [`PRIOR_TIME`] before any has been seen.
 const PRIOR_COUNT: [f64; SIZES] = [0.3, 0.06, 0.012, 0.0024, 0.00048];
+/// Time after the first sample in which no change is looked for, s: the first estimate is too far off for the slopes that it is
+/// updated with, and what it leaves is none of the target's doing.
+const SETTLING: f64 = 30.0;
 /// s.
 const PRIOR_TIME: f64 = 600.0;
 /// Ages at which hypotheses are thinned, and the distance that they then keep, s.
