@@ -48,7 +48,9 @@ fn apart(mission: &str, one: &Settings, other: &Settings) -> (f64, f64) {
         if k % 50 == 20 {
             continue;
         }
-        filters.iter_mut().for_each(|nav| nav.process(&sample, &start).unwrap());
+        filters
+            .iter_mut()
+            .for_each(|nav| assert!(nav.process(&sample, &start).unwrap()));
         let [a, b] = [filters[0].estimate(), filters[1].estimate()];
         for i in 0..6 {
             mean = mean.max((a.x[i] - b.x[i]).abs() / a.sigma[i]);

@@ -27,6 +27,8 @@ pub struct Summary {
     pub failed: usize,
     /// Runs that lost the target.
     pub diverged: usize,
+    /// Samples that went unanswered in runs that have a result.
+    pub missing_epochs: u64,
     /// Errors of relative position, m.
     pub position: QuantitySummary,
     /// Errors of relative velocity, m/s.
@@ -122,6 +124,7 @@ impl Summary {
             runs: u32::try_from(result.runs.len()).unwrap_or(u32::MAX),
             failed: result.failed(),
             diverged: result.diverged(),
+            missing_epochs: result.missing(),
             position: quantity(Quantity::Position),
             velocity: quantity(Quantity::Velocity),
             acceleration: quantity(Quantity::Acceleration),

@@ -357,6 +357,11 @@ pub const COLUMNS: &[Column<Summary>] = &[
         |s| s.ranks[0].map(u64::from),
     ),
     count("rank_vel", "the same by vel_rmse_m_s", |s| s.ranks[1].map(u64::from)),
+    count(
+        "missing_epochs",
+        "samples of the world, over all runs with a result, that the filter did not answer: stale, or passed by",
+        |s| Some(s.missing_epochs),
+    ),
 ];
 
 /// The number in a column; `None` where the cell is empty, holds text or does not exist.
