@@ -69,19 +69,19 @@ impl Model for NavModel {
         Ok(())
     }
 
-    fn do_step(&mut self, _t: f64, _h: f64, log: &mut Log<'_>) -> Result<(), ModelError> {
+    fn do_step(&mut self, t: f64, h: f64, log: &mut Log<'_>) -> Result<(), ModelError> {
         let Some(navigator) = &mut self.navigator else {
             return Ok(());
         };
         let (before, inputs) = (navigator.status(), &self.inputs);
-        // Count 0 is "no sample yet"; anything at or below the last count has been used.
-        if inputs.sample_count <= navigator.estimate().count {
-            return Ok(());
+        let new = navigator.process(&Sample::from(inputs), &State::from(inputs.nav_init))?;
+        if !new {
+            navigator.wait(h);
         }
-        navigator.process(&Sample::from(inputs), &State::from(inputs.nav_init))?;
         let now = navigator.status();
         if now != before {
-            log.event(format_args!("at t = {} s: {}", inputs.sample_time, now.name()));
+            let at = if new { inputs.sample_time } else { t + h };
+            log.event(format_args!("at t = {at} s: {}", now.name()));
             let other = Sensor::ALL
                 .into_iter()
                 .any(|sensor| inputs[sensor].valid && !navigator.uses(sensor));

@@ -338,6 +338,8 @@ fn shown(port: &Port) -> Option<Shown> {
         "q.unsolved" => Integer(Navigator::unsolved),
         "edited.outliers" => Integer(Navigator::outliers),
         "edited.impossible" => Integer(Navigator::impossible),
+        "edited.duplicates" => Integer(Navigator::duplicates),
+        "edited.restarts" => Integer(Navigator::restarts),
         "status" => Status,
         "cov.sigma" => Real(|n, i| n.estimate().sigma[i]),
         "cov.p" => Real(|n, i| n.estimate().p_target[(i / 9, i % 9)]),
@@ -592,6 +594,40 @@ mod tests {
                 assert_eq!(of(&spoilt).1, 0);
             }
         }
+    }
+
+    /// Handed over again under a new count, counted from one again, and no more: each is said, and none is an error.
+    #[test]
+    fn a_source_that_stumbles_is_said() {
+        let said = |model: &NavModel| {
+            let edited = ["edited.duplicates", "edited.restarts"].map(|name| integer(model, name));
+            (integer(model, "est.count"), edited, model.status())
+        };
+        let mut model = initialised(started(1));
+        for t in 1..=3 {
+            model = sampled(model, t);
+        }
+        let before = model.navigator.clone().unwrap().estimate().clone();
+        for count in [4, 4, 5] {
+            model = sampled_with(model, 3, |inputs| inputs.sample_count = count);
+        }
+        assert_eq!(said(&model), (3, [2, 0], Status::Tracking));
+        assert_eq!(model.navigator.clone().unwrap().estimate(), &before);
+        for (t, count) in [(4, 1), (5, 2)] {
+            model = sampled_with(model, t, |inputs| inputs.sample_count = count);
+        }
+        assert_eq!(said(&model), (2, [2, 1], Status::Tracking));
+        // Twelve quarters of a second are three periods.
+        for quarter in 1..=12 {
+            model
+                .do_step(5.0 + 0.25 * f64::from(quarter), 0.25, &mut Log::silent())
+                .unwrap();
+            assert_eq!(model.status(), Status::Tracking, "{quarter}");
+        }
+        model.do_step(8.25, 0.25, &mut Log::silent()).unwrap();
+        assert_eq!(integer(&model, "status"), 5);
+        model = sampled_with(model, 9, |inputs| inputs.sample_count = 3);
+        assert_eq!(model.status(), Status::Tracking);
     }
 
     #[test]

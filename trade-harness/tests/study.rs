@@ -324,6 +324,23 @@ fn dropped_samples_do_not_enter_the_nis() {
     near(row(&filters[0]).nis.mean, 2.0);
 }
 
+#[test]
+fn samples_that_a_filter_does_not_answer_are_counted() {
+    for scheme in [Scheme::GaussSeidel, Scheme::Jacobi] {
+        for step in [1.0, 0.25] {
+            let filters = [("good", Quirk::None), ("naps", Quirk::Naps), ("drops", Quirk::Drops)];
+            let s = Spec {
+                scheme,
+                step,
+                ..spec(Quirk::None, &filters)
+            };
+            let (_, filters) = study(s, 2);
+            let missing: Vec<u64> = filters.iter().map(|f| row(f).missing_epochs).collect();
+            assert_eq!(missing, [0, 5 * u64::from(RUNS as u32), 0], "{scheme:?} at {step} s");
+        }
+    }
+}
+
 /// Samples are counted, epochs are times: what has no sample is left out, and a sample of any sensor counts.
 #[test]
 fn sensors_of_two_rates_are_scored_at_their_own_times() {

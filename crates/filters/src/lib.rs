@@ -26,6 +26,7 @@ pub mod laws;
 mod layout;
 mod navigator;
 mod sample;
+mod source;
 pub mod state;
 pub mod tunable;
 mod units;

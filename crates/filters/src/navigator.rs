@@ -9,6 +9,7 @@ use crate::innovation::Innovation;
 use crate::laws::{Adaptation, FILTERS, FilterEntry, Hindsight, Law, Replacement, Setup, Step, Update, registry};
 use crate::layout::Layout;
 use crate::sample::{Reading, Sample, Untold};
+use crate::source::{Arrival, Source};
 use crate::state::{RowVector, State, Target, TargetMatrix};
 use crate::tunable::{Tunables, Value};
 use crate::units::Units;
@@ -119,6 +120,7 @@ pub struct Navigator {
     law: Law,
     divergence: Divergence,
     editing: Editing,
+    source: Source,
     /// Noise variances of the rows, internal units.
     r: RowVector,
     estimate: Estimate,
@@ -219,6 +221,7 @@ impl Navigator {
                 samples: Positive.check("divergence.samples", f64::from(b.divergence_samples), "")?,
                 mean: 1.0,
             },
+            source: Source::new(&told),
             r: setup.r,
             estimate: Estimate {
                 time: start_time,
@@ -234,15 +237,24 @@ impl Navigator {
         })
     }
 
-    /// Processes a sample; one whose ordinal is not above the last one used is passed by.
+    /// Processes a sample. One that was here before is passed by: the ordinal of the last, or a lower one with an epoch that is not
+    /// beyond the last; a new ordinal with such an epoch is counted, too. A lower ordinal with an epoch beyond the last begins a new
+    /// sequence.
+    ///
+    /// * returns: whether the sample was a new one.
     ///
     /// * `nav_init`: the initial estimate at the start time, 18 states, SI; read with the first sample only.
     ///
     /// # Errors
     /// When the sample makes no sense or the filter breaks down; the filter should then not be used further.
-    pub fn process(&mut self, sample: &Sample, nav_init: &State) -> Result<(), FilterError> {
-        if sample.count <= self.estimate.count {
-            return Ok(());
+    pub fn process(&mut self, sample: &Sample, nav_init: &State) -> Result<bool, FilterError> {
+        match self.source.arrival(sample) {
+            Arrival::Known => return Ok(false),
+            Arrival::Duplicate => {
+                self.source.pass_by(sample);
+                return Ok(false);
+            }
+            Arrival::New => (),
         }
         let mut sample = Cow::Borrowed(sample);
         let (t_s, last_s) = (sample.time, self.estimate.time);
@@ -278,6 +290,7 @@ impl Navigator {
             self.law.look_ahead(&estimator.relative());
         }
 
+        self.source.take(&sample);
         let gap = Gap {
             from_s: last_s,
             length_s: gap_s,
@@ -332,7 +345,12 @@ impl Navigator {
             sigma,
         };
         self.judge(due, seen);
-        Ok(())
+        Ok(true)
+    }
+
+    /// Lets communication time pass that has brought no new sample, s; after three periods of it the estimate is stale.
+    pub fn wait(&mut self, length_s: f64) {
+        self.source.waits(length_s);
     }
 
     /// Keeps the innovation and says what the filter is doing. An epoch at which no sensor of the target samples says nothing.
@@ -368,7 +386,11 @@ impl Navigator {
 
     /// What the filter is doing.
     pub fn status(&self) -> Status {
-        self.status
+        if self.source.is_stale() {
+            Status::Stale
+        } else {
+            self.status
+        }
     }
 
     /// The frame of the first nine states.
@@ -413,6 +435,16 @@ impl Navigator {
     /// number that is none.
     pub fn impossible(&self) -> i32 {
         self.editing.impossible()
+    }
+
+    /// Samples that were passed by since their epoch was not beyond the last, though their ordinal was new.
+    pub fn duplicates(&self) -> i32 {
+        self.source.duplicates()
+    }
+
+    /// How often the source began to count again.
+    pub fn restarts(&self) -> i32 {
+        self.source.restarts()
     }
 
     /// How often the law's solver found no solution.

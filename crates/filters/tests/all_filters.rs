@@ -306,7 +306,7 @@ fn off_nominal_scales_the_process_noise() {
         chosen.beliefs.off_nominal = off_nominal;
         let (mut world, start) = Formation::new(0);
         let mut nav = Navigator::new(&navigation("formation"), &chosen, 0.0).unwrap();
-        (0..400).for_each(|_| nav.process(&world.step(), &start).unwrap());
+        (0..400).for_each(|_| assert!(nav.process(&world.step(), &start).unwrap()));
         nav.estimate().sigma[3]
     };
     // The adaptive filter starts with it and forgets it within a thousand samples.

@@ -48,7 +48,9 @@ fn apart(mission: &str, one: &Settings, other: &Settings) -> (f64, f64) {
         if k % 50 == 20 {
             continue;
         }
-        filters.iter_mut().for_each(|nav| nav.process(&sample, &start).unwrap());
+        filters
+            .iter_mut()
+            .for_each(|nav| assert!(nav.process(&sample, &start).unwrap()));
         let [a, b] = [filters[0].estimate(), filters[1].estimate()];
         for i in 0..6 {
             mean = mean.max((a.x[i] - b.x[i]).abs() / a.sigma[i]);
@@ -111,7 +113,9 @@ fn bounds_of_a_density_make_a_bank_less_sure_or_surer() {
         let real: Vec<_> = tunables.iter().map(|(name, v)| (*name, Value::Real(*v))).collect();
         let (mut world, start) = OwnWorld::new(2, 1e-6);
         let mut nav = Navigator::new(&navigation("leo_venting"), &settings(filter, &real), 0.0).unwrap();
-        (0..600).for_each(|_| nav.process(&world.step(), &start).unwrap());
+        for _ in 0..600 {
+            nav.process(&world.step(), &start).unwrap();
+        }
         assert_eq!(nav.unsolved(), 0);
         nav.estimate().sigma.fixed_rows::<3>(3).norm()
     };

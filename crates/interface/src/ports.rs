@@ -329,6 +329,10 @@ pub const PORTS: &[Port] = &[
     row(Estimate, "edited.outliers", Integer, Scalar, &[], &["samples of a sensor that were passed by as most likely outliers"]),
     row(Estimate, "edited.impossible", Integer, Scalar, &[],
         &["samples of a sensor, the accelerometer included, that were passed by since they cannot be: a range that is not positive, a number that is none"]),
+    row(Estimate, "edited.duplicates", Integer, Scalar, &[],
+        &["samples that were passed by since their epoch was not beyond the last, though sample_count was new"]),
+    row(Estimate, "edited.restarts", Integer, Scalar, &[],
+        &["how often sample_count began again, at an epoch beyond the last"]),
     rows(Of::Camera, Innovation(0), "innov.camera", Vector(2), &["rad"], &[
         "azimuth of the camera, measured minus predicted", "elevation of the camera, measured minus predicted",
     ]),

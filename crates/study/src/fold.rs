@@ -35,6 +35,8 @@ pub struct RunRow {
     pub diverged: bool,
     /// Parameters that the filter calculated, by contract name; of the first run alone.
     pub calculated: Vec<(String, f64)>,
+    /// Samples of the world that the filter has not answered: its estimate was that of an earlier one, and takes no part.
+    pub missing: u64,
     /// Set when the run has no result; then it takes no part in the statistics.
     pub failure: Option<Failure>,
 }
@@ -145,6 +147,12 @@ impl FilterResult {
         self.flips.bound()
     }
 
+    /// Samples that went unanswered in runs that have a result.
+    pub fn missing(&self) -> u64 {
+        let with_result = self.runs.iter().filter(|run| run.failure.is_none());
+        with_result.map(|run| run.missing).sum()
+    }
+
     /// Takes in one run.
     ///
     /// * `records`: of its estimates; those of a failed run count for nothing.
@@ -220,6 +228,7 @@ impl RunRow {
             nis: mean(scored().filter_map(Record::nis)),
             diverged: ending.says_diverged || until_the_end().any(|r| r.lost),
             calculated: ending.calculated.clone(),
+            missing: ending.missing,
             failure: ending.failure.clone(),
         }
     }

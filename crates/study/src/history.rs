@@ -58,6 +58,11 @@ impl History {
         Ok(())
     }
 
+    /// Number of samples so far.
+    pub(crate) fn taken(&self) -> u64 {
+        self.samples.iter().flatten().count() as u64
+    }
+
     /// Sample periods until a time, to the nearest.
     fn ordinal(&self, time: f64) -> i32 {
         (time / self.sample_period).round() as i32

@@ -13,7 +13,7 @@ use crate::error::StudyError;
 use crate::outcome::Outcome;
 
 /// Begins a file; the number is that of the format.
-const HEAD: &[u8; 8] = b"rnt-run\x03";
+const HEAD: &[u8; 8] = b"rnt-run\x04";
 /// Begins a frame.
 const MARK: [u8; 4] = *b"run:";
 /// Mark, length and checksum.

@@ -32,6 +32,8 @@ pub struct Ending {
     pub failure: Option<Failure>,
     /// The filter's status said so.
     pub says_diverged: bool,
+    /// Samples of the world that it has not answered.
+    pub missing: u64,
     /// Parameters that it calculated, by contract name; of the first run of a study alone, and of a filter that came so far.
     pub calculated: Vec<(String, f64)>,
 }
@@ -63,7 +65,10 @@ struct Seat {
     id: SlaveId,
     reader: EstimateReader,
     calculated: Option<CalculatedReader>,
-    last: u32,
+    /// Epoch of the last of them.
+    last: Option<usize>,
+    /// Samples that it has answered.
+    answered: u64,
 }
 
 struct Coupled {
@@ -127,7 +132,8 @@ fn couple(spec: &Spec, run: u32) -> Result<Coupled, StudyError> {
             id,
             reader,
             calculated,
-            last: 0,
+            last: None,
+            answered: 0,
         })
     });
     let seats = seats.collect();
@@ -415,13 +421,14 @@ fn run_world(
             }
             for (seat, ending) in seats.iter().zip(&mut report.endings) {
                 let Ok(seat) = seat else { continue };
+                ending.missing = history.taken().saturating_sub(seat.answered);
                 if let Some(isolated) = outcome.isolated.iter().find(|i| i.slave == seat.id) {
                     let message = chain(&isolated.error);
                     ending.failure.get_or_insert(Failure {
                         time: Some(isolated.time),
                         message,
                     });
-                } else if seat.last == 0 && ending.failure.is_none() {
+                } else if seat.last.is_none() && ending.failure.is_none() {
                     let message = "ended without an estimate: est.count never rose above 0".to_owned();
                     ending.failure = Some(Failure {
                         time: Some(history.time),
@@ -464,13 +471,14 @@ fn answer(
     let Some(truth) = history.tagged(&tag, handed)? else {
         return Ok(());
     };
-    if truth.count <= seat.last {
+    if seat.last.is_some_and(|last| truth.epoch <= last) {
         return Ok(());
     }
     let Some(estimate) = seat.reader.estimate(context, &tag) else {
         return Ok(());
     };
-    seat.last = truth.count;
+    seat.last = Some(truth.epoch);
+    seat.answered += 1;
     if let Some((what, value)) = estimate.first_not_finite() {
         return Err(format!(
             "estimate of sample {} ({} s) has a {what} of {value}",

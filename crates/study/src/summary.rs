@@ -29,6 +29,8 @@ pub struct Summary {
     pub failed: usize,
     /// Runs that lost the target.
     pub diverged: usize,
+    /// Samples that went unanswered in runs that have a result.
+    pub missing_epochs: u64,
     /// Errors of relative position, m.
     pub position: QuantitySummary,
     /// Errors of relative velocity, m/s.
@@ -125,6 +127,7 @@ impl Summary {
             runs: u32::try_from(result.runs.len()).unwrap_or(u32::MAX),
             failed: result.failed(),
             diverged: result.diverged(),
+            missing_epochs: result.missing(),
             position: quantity(Quantity::Position),
             velocity: quantity(Quantity::Velocity),
             acceleration: quantity(Quantity::Acceleration),

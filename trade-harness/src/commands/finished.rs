@@ -169,6 +169,9 @@ fn print(
         } else {
             out.say(&format!("{}\n{}", table::render(&rows), table::LEGEND))?;
         }
+        for line in table::missing(&rows) {
+            out.say(&wrapped(&line))?;
+        }
         // What a source claims is claimed of its own world, not of a changed one.
         for note in &world.notes {
             out.say(&wrapped(&format!("note: {note}")))?;

@@ -362,6 +362,11 @@ pub const COLUMNS: &[Column<Summary>] = &[
         "filter, or bound: told by the truth what no filter knows, and without a rank",
         |s| if s.bound { "bound" } else { "filter" }.into(),
     ),
+    count(
+        "missing_epochs",
+        "samples of the world, over all runs with a result, that the filter did not answer: stale, or passed by",
+        |s| Some(s.missing_epochs),
+    ),
 ];
 
 /// The number in a column; `None` where the cell is empty, holds text or does not exist.

@@ -49,6 +49,15 @@ const WIDE: [(&str, &str); 14] = [
     ("diverged", "diverged"),
 ];
 
+/// What is said below a table of each filter that did not answer every sample.
+pub fn missing(rows: &[Summary]) -> impl Iterator<Item = String> {
+    let silent = rows.iter().filter(|row| row.missing_epochs > 0);
+    silent.map(|row| {
+        let (filter, epochs) = (&row.filter, row.missing_epochs);
+        format!("! {filter} did not answer {epochs} samples of its runs: stale, or passed by")
+    })
+}
+
 /// Headings of what a filter cost.
 const COST: [&str; 2] = ["nav\n[us/step]", "FMI\n[%]"];
 
@@ -214,6 +223,17 @@ mod tests {
             assert!(text.ends_with(BOUND_LEGEND) && BOUND_LEGEND.len() <= 81);
         }
         assert!(!render(&[row("snc", None)]).contains('*'));
+    }
+
+    #[test]
+    fn samples_that_went_unanswered_are_said_and_nothing_where_none_did() {
+        let mut silent = row("snc", None);
+        silent.missing_epochs = 12;
+        let said: Vec<String> = missing(&[row("milton", None), silent]).collect();
+        assert_eq!(
+            said,
+            ["! snc did not answer 12 samples of its runs: stale, or passed by"]
+        );
     }
 
     #[test]

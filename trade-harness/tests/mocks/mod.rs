@@ -97,6 +97,8 @@ pub enum Quirk {
     TwoRates,
     /// Samples of multiples of five hold no measurement; the NIS output keeps a wild value then.
     Drops,
+    /// Hears nothing of samples 20 to 24.
+    Naps,
     /// A filter whose first position is what its input `truth.r_tc_n[1]` says.
     AsksForTruth,
     /// A truth that moves by its input `a_cmd_c_n[1]`, or a filter with an output of that name.
@@ -350,7 +352,7 @@ impl Mock {
 
     fn step_filter(&mut self) {
         let (run, count) = (self.integer("run"), self.integer("sample_count"));
-        if count <= self.last {
+        if count <= self.last || (self.quirk == Quirk::Naps && (20..=24).contains(&count)) {
             return;
         }
         self.last = count;
