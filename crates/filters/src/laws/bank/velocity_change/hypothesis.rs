@@ -2,7 +2,7 @@
 
 use super::super::member::Taken;
 use super::super::rows::Row;
-use super::directions::Axes;
+use super::axes::Axes;
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 use serde::{Deserialize, Serialize};
 

@@ -11,6 +11,7 @@
 //! so that given the data D ~ N(V d, V), V = (C + I / c^2)^-1, and its weight against "no change" is
 //! rate_c * slot * exp(d' V d / 2) / sqrt(det(I + c^2 C)). The quiet filter is never run again.
 
+mod axes;
 mod directions;
 mod hypothesis;
 mod schedule;
@@ -20,7 +21,8 @@ use super::centre::{Shared, white};
 use super::member::Member;
 use super::mixture::{Mixture, Moments};
 use crate::units::Units;
-use directions::{Axes, Directions};
+use axes::Axes;
+use directions::Directions;
 use hypothesis::{Hypothesis, NEGLIGIBLE, Part, SIZES};
 use nalgebra::{Matrix6, Vector6};
 use schedule::Schedule;
