@@ -67,7 +67,7 @@ fn it_is_back_soon_after_a_burn() {
         before.sort_by(f64::total_cmp);
         let steady = before[before.len() / 2];
         let far = |(t, error): &&(f64, f64)| (BURN..BURN + 600.0).contains(t) && *error > 3.0 * steady;
-        let last = errors.iter().filter(far).last();
+        let last = errors.iter().rfind(far);
         let (t, _) = last.unwrap_or_else(|| panic!("{mission}: the burn leaves no trace"));
         assert!(t - BURN <= 110.0, "{mission}: {} s", t - BURN);
     }
