@@ -223,3 +223,13 @@ pub struct Setup<'a> {
     /// Run within the study.
     pub run: u64,
 }
+
+impl Setup<'_> {
+    /// Square root of the white acceleration density that a tunable says, with the factor of a study of mistuning; internal units.
+    ///
+    /// # Errors
+    /// When the tunable is out of range.
+    pub(super) fn root_acceleration_density(&self, tunable: &str) -> Result<f64, FilterError> {
+        Ok(self.tunables.real(tunable)? / self.units.root_acceleration_density() * self.off_nominal.sqrt())
+    }
+}

@@ -55,7 +55,7 @@ impl Clairvoyant {
     /// When a tunable is out of range.
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
         Ok(Self {
-            q: setup.tunables.real("q")? / setup.units.root_acceleration_density() * setup.off_nominal.sqrt(),
+            q: setup.root_acceleration_density("q")?,
             a_t_n: Vector3::zeros(),
         })
     }

@@ -53,7 +53,7 @@ impl Snc {
     /// When a tunable is out of range.
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
         Ok(Self {
-            q: setup.tunables.real("q")? / setup.units.root_acceleration_density() * setup.off_nominal.sqrt(),
+            q: setup.root_acceleration_density("q")?,
         })
     }
 }

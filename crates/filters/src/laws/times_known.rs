@@ -71,9 +71,7 @@ impl TimesKnown {
     /// # Errors
     /// When a tunable is out of range.
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
-        let of = |name: &str| -> Result<f64, FilterError> {
-            Ok(setup.tunables.real(name)? / setup.units.root_acceleration_density() * setup.off_nominal.sqrt())
-        };
+        let of = |name| setup.root_acceleration_density(name);
         let (q_active, q_quiet) = (of("q_active")?, of("q_quiet")?);
         Ok(Self {
             q_active,

@@ -1,6 +1,7 @@
 //! Weights of the members of a bank from what each has explained, within bounds on what they stand for on average.
 
 use super::conic::{self, NoAnswer};
+use crate::laws::bank::reweigh;
 use clarabel::solver::{ExponentialConeT, NonnegativeConeT, ZeroConeT};
 use serde::{Deserialize, Serialize};
 
@@ -51,10 +52,9 @@ pub(super) fn weights(evidence: &PerMember, bounds: &Bounds) -> Result<PerMember
 
 /// exp(L) over its sum: the maximum over the whole simplex.
 fn softmax(evidence: &PerMember) -> PerMember {
-    let most = evidence.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let raised = evidence.map(|l| (l - most).exp());
-    let sum: f64 = raised.iter().sum();
-    raised.map(|w| w / sum)
+    let mut weights = [1.0; MEMBERS];
+    reweigh(&mut weights, evidence);
+    weights
 }
 
 /// The same as a programme over exponential cones, (t, w, 1) with w exp(t / w) <= 1 for each member.

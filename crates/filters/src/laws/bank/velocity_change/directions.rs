@@ -82,7 +82,7 @@ impl Directions {
         let all: f64 = set.lobes.iter().map(Lobe::count).sum();
         let known = all / (all + NEW);
         let mut open = *rates;
-        let mut priors = Vec::with_capacity(SIZES + 2 * MOST);
+        let mut priors = Vec::with_capacity(SIZES * (MOST + 1));
         for lobe in &set.lobes {
             for (place, found) in lobe.found.iter().enumerate() {
                 let rate = (known * found * per_found).min(open[place]);

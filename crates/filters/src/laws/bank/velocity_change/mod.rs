@@ -350,10 +350,9 @@ impl VelocityChanges {
         let per_found = 1.0 / (PRIOR_TIME + self.elapsed);
         let rates: [f64; SIZES] = std::array::from_fn(|i| (self.prior[i] + self.found[i]) * per_found);
         let axes = Axes::of(relative, self.speed);
-        let priors = match &self.directions {
-            Some(directions) => directions.priors(&axes, &self.sizes, &rates, per_found),
-            None => Directions::default().priors(&axes, &self.sizes, &rates, per_found),
-        };
+        let nothing_learnt = Directions::default();
+        let directions = self.directions.as_ref().unwrap_or(&nothing_learnt);
+        let priors = directions.priors(&axes, &self.sizes, &rates, per_found);
         let schedule = self.schedule.as_ref();
         let expected = schedule.map_or(0.0, |schedule| {
             schedule.expected(self.elapsed, spacing(0.0), self.window)
