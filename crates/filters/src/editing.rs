@@ -6,8 +6,9 @@
 //! That S is right is what the filter believes, and a filter that has lost its way believes it too: to it the truth is an outlier, and
 //! every sample passed by takes it further off. So a suspect is passed by
 //!
-//! * where it stands out from the sample before, too. With e what that one left, v - e is the change that was measured less the one
-//!   that was predicted; it has the noise of two samples and next to nothing of what a filter that lags is off by;
+//! * where it stands out from the samples before, too. With e the mean of what the last n of them left, v - e is the change that was
+//!   measured less the one that was predicted; it has the noise R (1 + 1/n) and next to nothing of what a filter that lags is off by.
+//!   There are four of them, or as many as are fresh; where none is, only what is beyond all bounds is passed by;
 //! * where the filter's record speaks for it: of the sensor's last samples at most a third were suspected;
 //! * not more than a few times in a row, and then not again until a sample fits.
 //!
@@ -31,6 +32,12 @@ const MORE: f64 = 99.0;
 const GROSS: f64 = 50.0;
 /// Samples of a sensor that make up its record.
 const RECORD: u32 = 24;
+/// Samples used last against which one that is suspected must stand out.
+const BEFORE: usize = 4;
+/// Periods of a sensor after which what a sample left says nothing any more of the one that comes: a filter that lags has moved on.
+const FRESH: f64 = 8.0;
+/// Rounding of times, s.
+const TICK: f64 = 1e-6;
 /// Most rows that a sensor has.
 const MOST: usize = Sensor::MOST_ROWS;
 
@@ -53,17 +60,19 @@ pub(crate) struct Editing {
 struct Watched {
     /// Standard deviations of its rows, SI.
     sigma: Rows,
+    period_s: f64,
     /// One bit for each of its last samples, the newest lowest: set where it was suspected, and before the first.
     suspected: u32,
     /// Samples passed by since the last that fitted.
     in_a_row: i32,
-    /// The last that was not passed by.
-    used: Option<Used>,
+    /// The last that were not passed by, the newest first.
+    used: [Option<Used>; BEFORE],
 }
 
 /// A sample that was used.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Used {
+    time_s: f64,
     /// What was measured, SI.
     z: Rows,
     /// What it left: measured less what the estimate after it says, internal units.
@@ -71,12 +80,13 @@ struct Used {
 }
 
 impl Watched {
-    fn new(sigma: Rows) -> Self {
+    fn new(sigma: Rows, period_s: f64) -> Self {
         Self {
             sigma,
+            period_s,
             suspected: (1 << RECORD) - 1,
             in_a_row: 0,
-            used: None,
+            used: [None; BEFORE],
         }
     }
 
@@ -85,9 +95,18 @@ impl Watched {
         3 * self.suspected.count_ones() <= RECORD
     }
 
+    /// What the last samples used have left, by their mean, and the variance of that over the variance of one; `None` where there
+    /// is none that is fresh.
+    fn left(&self, time_s: f64) -> Option<(Rows, f64)> {
+        let is_fresh = |used: &&Used| time_s - used.time_s <= FRESH * self.period_s + TICK;
+        let fresh = self.used.iter().flatten().filter(is_fresh);
+        let (count, sum) = fresh.fold((0.0, Rows::zeros()), |(count, sum), used| (count + 1.0, sum + used.left));
+        (count > 0.0).then(|| (sum / count, 1.0 / count))
+    }
+
     /// Whether a measurement is far from the last one used, whatever a filter thinks of either.
     fn is_far(&self, z: &Rows, sensor: Sensor) -> bool {
-        self.used.is_some_and(|used| {
+        self.used[0].is_some_and(|used| {
             let mut rows = sensor.quantities().enumerate().take(MOST);
             rows.any(|(row, quantity)| {
                 wrapped(z[row] - used.z[row], quantity).abs() > GROSS * 2.0_f64.sqrt() * self.sigma[row]
@@ -101,13 +120,14 @@ impl Editing {
     /// * `most`: samples of a sensor that may be passed by one after the other.
     /// * `told`: the mission, what a user believes included.
     pub(crate) fn new(share: Option<f64>, most: i32, told: &Navigation) -> Self {
-        let mut watched = [Watched::new(Rows::zeros()); Sensor::COUNT];
+        let mut watched = [Watched::new(Rows::zeros(), f64::INFINITY); Sensor::COUNT];
         for known in &told.sensors {
-            let sigma = &mut watched[known.sensor as usize].sigma;
+            let mut sigma = Rows::zeros();
             sigma
                 .iter_mut()
                 .zip(known.deviations())
                 .for_each(|(to, sigma)| *to = sigma);
+            watched[known.sensor as usize] = Watched::new(sigma, known.period_s);
         }
         Self {
             share,
@@ -184,9 +204,12 @@ impl Editing {
             let doubted = suspect
                 && watched.in_a_row < self.most
                 && if watched.has_fitted() {
-                    let since = |used: Used| Seen::change(step, layout.of_sensor(sensor), &used.left, r);
+                    let rows = layout.of_sensor(sensor);
                     // That outliers are rare has been counted already.
-                    watched.used.is_none_or(|used| since(used).is_outlier(0.0))
+                    match watched.left(sample.time) {
+                        Some(left) => Seen::change(step, rows, &left, r).is_outlier(0.0),
+                        None => gross,
+                    }
                 } else {
                     gross && watched.is_far(&z, sensor)
                 };
@@ -216,7 +239,14 @@ impl Editing {
                 for (left, row) in left.iter_mut().zip(rows) {
                     *left = step.innovation[row] - (step.h.row(row) * moved)[0];
                 }
-                self.watched[sensor as usize].used = Some(Used { z, left });
+                let used = &mut self.watched[sensor as usize].used;
+                let last = Used {
+                    time_s: sample.time,
+                    z,
+                    left,
+                };
+                used.rotate_right(1);
+                used[0] = Some(last);
             }
         }
     }
@@ -251,10 +281,15 @@ impl Seen {
         seen
     }
 
-    /// What has changed since the last sample used, if the filter's motion is right: the noise of two samples.
+    /// What has changed since the last samples used, if the filter's motion is right: the noise of this one and of their mean.
     ///
-    /// * `left`: what the last one left.
-    fn change(step: &Step, rows: impl IntoIterator<Item = Range<usize>>, left: &Rows, r: &RowVector) -> Self {
+    /// * `left`: as [`Watched::left`].
+    fn change(
+        step: &Step,
+        rows: impl IntoIterator<Item = Range<usize>>,
+        (left, share): &(Rows, f64),
+        r: &RowVector,
+    ) -> Self {
         let mut seen = Self {
             innovation: SVector::zeros(),
             s: SMatrix::identity(),
@@ -262,7 +297,7 @@ impl Seen {
         };
         for (i, row) in rows.into_iter().flatten().enumerate().take(MOST) {
             seen.innovation[i] = step.innovation[row] - left[i];
-            seen.s[(i, i)] = 2.0 * r[row];
+            seen.s[(i, i)] = (1.0 + share) * r[row];
             seen.more[(i, i)] = MORE * r[row];
         }
         seen
@@ -318,12 +353,17 @@ mod tests {
 
     const LIDAR: usize = Sensor::Lidar as usize;
 
-    /// A LiDAR of unit noise whose samples have fitted.
+    /// A LiDAR of unit noise whose samples have fitted, the last one, of the second before, to the digit.
     fn settled(share: Option<f64>) -> Editing {
         let told = lidar();
         let mut editing = Editing::new(share, 3, &told);
-        editing.watched[LIDAR].sigma = Rows::repeat(1.0);
+        editing.watched[LIDAR] = Watched::new(Rows::repeat(1.0), 1.0);
         editing.watched[LIDAR].suspected = 0;
+        editing.watched[LIDAR].used[0] = Some(Used {
+            time_s: 0.0,
+            z: Rows::zeros(),
+            left: Rows::zeros(),
+        });
         editing
     }
 
@@ -366,7 +406,7 @@ mod tests {
     #[test]
     fn nothing_is_doubted_by_a_filter_whose_samples_have_not_fitted() {
         let mut editing = settled(Some(0.01));
-        editing.watched[LIDAR] = Watched::new(Rows::repeat(1.0));
+        editing.watched[LIDAR] = Watched::new(Rows::repeat(1.0), 1.0);
         for _ in 0..15 {
             assert!(!finds(&mut editing, 0.5, None));
         }
@@ -381,24 +421,56 @@ mod tests {
         assert_eq!(editing.outliers(), 3);
     }
 
+    /// Samples of a LiDAR that were used, the newest last, each by the time since then and how far it was off; the update takes a
+    /// tenth.
+    fn after(samples: &[(f64, f64)]) -> Editing {
+        let layout = Layout::new(&[Sensor::Lidar]);
+        let mut editing = settled(Some(0.01));
+        editing.watched[LIDAR].used = [None; BEFORE];
+        for (since, off) in samples {
+            let mut sample = Sample::blank(1, 1.0 - since);
+            sample[Sensor::Lidar] = Reading::of(&[1000.0, 0.0, 0.0]);
+            editing.remember(&sample, &step(*off), &(Target::x() * (0.1 * off)), layout);
+        }
+        editing
+    }
+
     /// Off by 30 and by 29 before, of which the update takes a tenth: a filter that lags. One that jumps by as much is none.
     #[test]
     fn what_goes_on_as_the_sample_before_is_no_outlier() {
-        let layout = Layout::new(&[Sensor::Lidar]);
         for (before, doubted) in [(29.0, false), (33.0, false), (0.0, true), (-27.0, true)] {
-            let mut editing = settled(Some(0.01));
-            let mut sample = Sample::blank(1, 1.0);
-            sample[Sensor::Lidar] = Reading::of(&[1000.0, 0.0, 0.0]);
-            editing.remember(&sample, &step(before), &(Target::x() * (0.1 * before)), layout);
-            assert_eq!(finds(&mut editing, 30.0, None), doubted, "{before}");
+            assert_eq!(finds(&mut after(&[(1.0, before)]), 30.0, None), doubted, "{before}");
         }
+    }
+
+    /// Three rows, of which one is off by x = v - e: -x^2 / (2 c) - 3/2 ln c against the same with c + 99, where c = 1 + 1 / n.
+    #[test]
+    fn a_sample_must_stand_out_from_the_mean_of_the_four_before() {
+        for n in 1..=6_u32 {
+            let c = 1.0 + 1.0 / f64::from(n.min(4));
+            let edge = (3.0 * ((c + 99.0) / c).ln() / (1.0 / c - 1.0 / (c + 99.0))).sqrt();
+            let samples: Vec<(f64, f64)> = (1..=n).rev().map(|k| (f64::from(k), 20.0)).collect();
+            for (v, doubted) in [(18.0 + edge - 1e-9, false), (18.0 + edge + 1e-9, true)] {
+                assert_eq!(finds(&mut after(&samples), v, None), doubted, "{n} {v}");
+            }
+        }
+    }
+
+    /// Eight periods, of 1 s; the odd one out is the one before them.
+    #[test]
+    fn what_was_long_ago_says_nothing() {
+        let samples = |since: f64| [(since + 1.0, 400.0), (since, 0.0)];
+        assert!(!finds(&mut after(&samples(7.0)), 180.0, None), "the mean of both");
+        assert!(finds(&mut after(&samples(8.0)), 180.0, None), "the newer alone");
+        // Neither: 50 times the root of two, and no less.
+        assert!(!finds(&mut after(&samples(9.0)), 70.0, None) && finds(&mut after(&samples(9.0)), 71.0, None));
     }
 
     #[test]
     fn without_a_record_only_what_is_beyond_all_bounds_and_unlike_the_sample_before_is_doubted() {
         let start = || {
             let mut editing = settled(Some(0.01));
-            editing.watched[LIDAR] = Watched::new(Rows::repeat(1.0));
+            editing.watched[LIDAR] = Watched::new(Rows::repeat(1.0), 1.0);
             editing
         };
         let (s, jump) = (50.0 * 2.0_f64.sqrt(), 50.0 * 2.0_f64.sqrt());
