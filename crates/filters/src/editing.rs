@@ -100,7 +100,9 @@ impl Watched {
     fn left(&self, time_s: f64) -> Option<(Rows, f64)> {
         let is_fresh = |used: &&Used| time_s - used.time_s <= FRESH * self.period_s + TICK;
         let fresh = self.used.iter().flatten().filter(is_fresh);
-        let (count, sum) = fresh.fold((0.0, Rows::zeros()), |(count, sum), used| (count + 1.0, sum + used.left));
+        let (count, sum) = fresh.fold((0.0, Rows::zeros()), |(count, sum), used| {
+            (count + 1.0, sum + used.left)
+        });
         (count > 0.0).then(|| (sum / count, 1.0 / count))
     }
 

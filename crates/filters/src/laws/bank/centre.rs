@@ -6,8 +6,14 @@ use super::rows::Seen;
 use crate::jerk;
 use crate::laws::Step;
 use crate::state::{RowVector, TargetMatrix};
-use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
+use nalgebra::{Matrix6, SMatrix, SVector, SymmetricEigen, Vector6};
+use numerics::spd;
 use serde::{Deserialize, Serialize};
+
+/// What rounding leaves of the difference of two covariances, of their size.
+const ROUNDING: f64 = 1e-12;
+/// Most steps in search of six eigenvalues.
+const EIGEN_STEPS: usize = 200;
 
 /// The centre between two samples.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -66,7 +72,7 @@ impl Centre {
         let (common, mixture_prior) = match &self.last {
             None => (Matrix6::zeros(), prior),
             Some((before, said)) => {
-                let common = as_covariance(prior - carried(before) - walk);
+                let common = as_covariance(prior - carried(before) - walk, &prior);
                 (common, carried(&said.p) + common + walk)
             }
         };
@@ -78,7 +84,7 @@ impl Centre {
             common,
             seen,
             correction: step.linear.fixed_rows::<6>(0).into_owned(),
-            first: self.last.is_none().then(|| as_covariance(prior - walk)),
+            first: self.last.is_none().then(|| as_covariance(prior - walk, &prior)),
             post: six(&step.p_post),
             predicted: predicted(mixture_prior, &seen),
         }
@@ -133,14 +139,24 @@ fn predicted(prior: Matrix6<f64>, seen: &Seen) -> (f64, RowVector) {
 }
 
 /// What was found as a difference of covariances, made one that can be added to any: where rounding, or news of the
-/// accelerometer's bias on the way, has left it none, its diagonal as far as that is positive.
-fn as_covariance(found: Matrix6<f64>) -> Matrix6<f64> {
-    let fits = |i: usize, j: usize| found[(i, j)].powi(2) <= found[(i, i)] * found[(j, j)];
-    let is_one = (0..6).all(|i| found[(i, i)] >= 0.0 && (0..i).all(|j| fits(i, j)));
-    if is_one {
-        found
-    } else {
-        Matrix6::from_diagonal(&found.diagonal().map(|v| v.max(0.0)))
+/// accelerometer's bias on the way, has left it none, the nearest one in units of the deviations of what it is a part of.
+fn as_covariance(found: Matrix6<f64>, of: &Matrix6<f64>) -> Matrix6<f64> {
+    let variances = of.diagonal();
+    if (found + Matrix6::from_diagonal(&(variances * ROUNDING)))
+        .cholesky()
+        .is_some()
+    {
+        return found;
+    }
+    let deviations = variances.map(f64::sqrt);
+    let scales = deviations * deviations.transpose();
+    let scaled = spd::symmetrised(&found.component_div(&scales));
+    match SymmetricEigen::try_new(scaled, f64::EPSILON, EIGEN_STEPS) {
+        Some(mut eigen) => {
+            eigen.eigenvalues.apply(|value| *value = value.max(0.0));
+            eigen.recompose().component_mul(&scales)
+        }
+        None => Matrix6::from_diagonal(&found.diagonal().map(|v| v.max(0.0))),
     }
 }
 
@@ -231,6 +247,22 @@ pub(in crate::laws) fn white(density: f64, dt: f64) -> Matrix6<f64> {
 mod tests {
     use super::*;
     use nalgebra::{SMatrix, Vector3};
+
+    /// A difference that is a covariance stays as it is; of one that is none, what is negative goes, in units of the deviations: the
+    /// rest keeps its correlations.
+    #[test]
+    fn a_difference_becomes_a_covariance_and_loses_no_more_than_it_must() {
+        let scale = Vector6::new(1e3, 1e3, 1e3, 1e-3, 1e-3, 1e-3);
+        let of = Matrix6::from_diagonal(&scale.component_mul(&scale));
+        let along = Vector6::new(1.0, 0.5, 0.0, 0.3, 0.0, 0.0).component_mul(&scale);
+        let found = along * along.transpose() * 0.01;
+        assert_eq!(as_covariance(found, &of), found);
+        // Perpendicular to it in units of the deviations.
+        let across = Vector6::new(0.0, 0.0, 1.0, 0.0, 1.0, 0.0).component_mul(&scale);
+        let spoilt = found - across * across.transpose() * 1e-4;
+        let difference = (as_covariance(spoilt, &of) - found).component_div(&(scale * scale.transpose()));
+        assert!(difference.amax() < 1e-15, "{difference}");
+    }
 
     /// A start whose velocity is known to 1e-8, and a bank whose loudest member walks by 0.1: the quiet member must still know it.
     #[test]

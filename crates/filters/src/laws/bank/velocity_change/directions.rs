@@ -51,7 +51,7 @@ struct Set {
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Lobe {
-    /// Unit vectors by their precision, 1/rad^2, summed.
+    /// Unit vectors by their precision about the middle, 1/rad^2, summed.
     resultant: Vector3<f64>,
     /// Changes that it has been found in, by size.
     found: [f64; SIZES],
@@ -114,21 +114,18 @@ impl Set {
         self.ln_evidence += weight * (4.0 * PI * sum).ln();
         shares.iter_mut().for_each(|share| *share /= sum);
         if fresh / sum > 0.5 {
-            if self.lobes.len() == MOST {
-                let least = |a: &Lobe, b: &Lobe| b.count().total_cmp(&a.count());
-                self.lobes.sort_by(least);
-                self.lobes.pop();
+            if self.lobes.len() < MOST || self.give_way(weight) {
+                self.lobes.push(Lobe {
+                    resultant: along * (weight / (variance + SCATTER * SCATTER)),
+                    found: *weights,
+                });
             }
-            self.lobes.push(Lobe {
-                resultant: along * (weight / variance),
-                found: *weights,
-            });
             return;
         }
         let known: f64 = shares.iter().sum();
         for (lobe, share) in self.lobes.iter_mut().zip(&shares) {
             let share = share / known;
-            lobe.resultant += along * (weight * share / variance);
+            lobe.resultant += along * (weight * share / (variance + SCATTER * SCATTER));
             for (found, weight) in lobe.found.iter_mut().zip(weights) {
                 *found += share * weight;
             }
@@ -136,7 +133,32 @@ impl Set {
     }
 }
 
+impl Set {
+    /// The lobe that was found least often loses this weight to a direction that is in none; what lasts outlives strays.
+    ///
+    /// * returns: whether nothing was left of it, and there is place for another.
+    fn give_way(&mut self, weight: f64) -> bool {
+        let counts = self.lobes.iter().map(Lobe::count).enumerate();
+        let Some((least, count)) = counts.min_by(|a, b| a.1.total_cmp(&b.1)) else {
+            return true;
+        };
+        let left = 1.0 - weight / count;
+        if left > 0.0 {
+            self.lobes[least].scale(left);
+            false
+        } else {
+            self.lobes.remove(least);
+            true
+        }
+    }
+}
+
 impl Lobe {
+    fn scale(&mut self, by: f64) {
+        self.resultant *= by;
+        self.found.iter_mut().for_each(|found| *found *= by);
+    }
+
     fn count(&self) -> f64 {
         self.found.iter().sum()
     }
@@ -202,12 +224,27 @@ mod tests {
                 assert!(here.ln_evidence > 3.0 && there.ln_evidence < here.ln_evidence - 5.0);
                 let lobe = &here.lobes[0];
                 square += lobe.middle().angle(&fixed).powi(2) / runs as f64;
-                assert!((lobe.variance() - (SCATTER.powi(2) + 0.1_f64.powi(2) / 8.0)).abs() < 4e-4);
+                let middle = (SCATTER.powi(2) + 0.1_f64.powi(2)) / 8.0;
+                assert!((lobe.variance() - (SCATTER.powi(2) + middle)).abs() < 4e-4);
             }
             // Eight directions of 0.1 rad in each of two angles; the sampling error of the mean square is a sixth.
             let expected = 2.0 * 0.1_f64.powi(2) / 8.0;
             assert!((square / expected - 1.0).abs() < 0.5, "{square} {expected}");
         }
+    }
+
+    /// Known exactly a hundred times, each off by the scatter: the middle is known to a tenth of it, and no better.
+    #[test]
+    fn a_middle_is_known_no_better_than_its_changes_scatter() {
+        let g = &mut stream(13, 0, Source::Lidar);
+        let mut set = Set::default();
+        for _ in 0..100 {
+            let along = Vector3::new(1.0, SCATTER * normal(g), SCATTER * normal(g)).normalize();
+            set.learn(&along, 1e-12, &[1.0, 0.0, 0.0, 0.0, 0.0]);
+        }
+        assert_eq!(set.lobes.len(), 1);
+        let expected = SCATTER.powi(2) * 1.01;
+        assert!((set.lobes[0].variance() / expected - 1.0).abs() < 1e-3);
     }
 
     #[test]
@@ -233,6 +270,41 @@ mod tests {
             axes: Axes([Matrix3::identity(); 2]),
         });
         assert_eq!(directions.sets[1].lobes.len(), 2);
+    }
+
+    /// Three that come again and again, and twenty strays: each stray takes from the one that came least, and two in a row are a
+    /// direction. What has come often stays.
+    #[test]
+    fn what_lasts_outlives_strays() {
+        let fixed = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let mut set = Set::default();
+        let one = [0.0, 1.0, 0.0, 0.0, 0.0];
+        for along in fixed.iter().flat_map(|along| [along; 4]) {
+            set.learn(along, 1e-4, &one);
+        }
+        let counts = |set: &Set| set.lobes.iter().map(Lobe::count).collect::<Vec<_>>();
+        assert_eq!(counts(&set), [4.0; 3]);
+        let stray = -Vector3::new(1.0, 1.0, 1.0).normalize();
+        set.learn(&stray, 1e-4, &one);
+        assert_eq!(counts(&set), [3.0, 4.0, 4.0]);
+        assert!((set.lobes[0].middle() - fixed[0]).norm() < 1e-12);
+        set.learn(&fixed[0], 1e-4, &one);
+        for _ in 0..2 {
+            set.learn(&stray, 1e-4, &one);
+        }
+        assert!(
+            set.lobes.iter().all(|lobe| lobe.middle().angle(&stray) > 0.5),
+            "{:?}",
+            counts(&set)
+        );
+        for _ in 0..12 {
+            set.learn(&stray, 1e-4, &one);
+        }
+        assert!(
+            set.lobes.iter().any(|lobe| lobe.middle().angle(&stray) < 0.1),
+            "{:?}",
+            counts(&set)
+        );
     }
 
     /// However a rate is shared out between directions, it is all there.

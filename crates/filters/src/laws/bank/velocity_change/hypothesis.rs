@@ -76,9 +76,7 @@ pub(super) struct Hypothesis {
     pub d: Vector3<f64>,
     /// s.
     pub age: f64,
-    /// Time from the start to its own, in units of the closest spacing.
-    pub slot: u64,
-    /// Time to the next one opened, s.
+    /// Time to the next one, or to now: that for which it stands, s.
     pub span: f64,
     /// By how much longer it counts, since a change was due, s.
     pub due: f64,
@@ -86,6 +84,8 @@ pub(super) struct Hypothesis {
     pub priors: Vec<Prior>,
     /// Logarithm of the sum of rates times likelihoods, of the newest sample, 1/s.
     pub ln_mass: f64,
+    /// Logarithm of what "no change" weighs by now, for what has been folded into it since this one was opened.
+    pub ln_base: f64,
     /// Axes at its time.
     pub axes: Axes,
 }
@@ -116,7 +116,7 @@ impl Part {
 }
 
 impl Hypothesis {
-    pub(super) fn new(slot: u64, due: f64, priors: Vec<Prior>, axes: Axes) -> Self {
+    pub(super) fn new(due: f64, priors: Vec<Prior>, axes: Axes) -> Self {
         let mut e = Matrix6x3::zeros();
         e.fixed_view_mut::<3, 3>(3, 0).fill_with_identity();
         Self {
@@ -124,13 +124,24 @@ impl Hypothesis {
             c: Matrix3::zeros(),
             d: Vector3::zeros(),
             age: 0.0,
-            slot,
             span: 0.0,
             due,
             ln_mass: priors.iter().map(|prior| prior.rate).sum::<f64>().ln(),
+            ln_base: 0.0,
             priors,
             axes,
         }
+    }
+
+    /// Logarithm of its weight against "no change".
+    pub(super) fn ln_weight(&self) -> f64 {
+        (self.span + self.due).ln() + self.ln_mass - self.ln_base
+    }
+
+    /// The next one goes, and its time is this one's.
+    pub(super) fn stand_for(&mut self, next: &Self) {
+        self.span += next.span;
+        self.due += next.due;
     }
 
     /// A step further.

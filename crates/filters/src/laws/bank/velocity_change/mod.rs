@@ -42,6 +42,10 @@ const PRIOR_TIME: f64 = 600.0;
 const THINNED: [(f64, f64); 3] = [(0.0, 5.0), (30.0, 10.0), (80.0, 40.0)];
 /// Nothing is learnt of when and where to from a change less probable than this.
 const CERTAIN: f64 = 0.2;
+/// A time is no time of a change where it is less likely than the likeliest by this factor.
+const NOT_MUCH_LESS: f64 = 0.1;
+/// Rounding of times, s.
+const TICK: f64 = 1e-9;
 
 /// What a user may set; SI.
 #[derive(Clone, Copy, Debug)]
@@ -154,6 +158,9 @@ impl VelocityChanges {
         self.open
             .iter_mut()
             .for_each(|hypothesis| hypothesis.predict(dt, &shared.f));
+        if let Some(newest) = self.open.last_mut() {
+            newest.span = newest.age;
+        }
         shared.predict(&mut self.quiet, &shared.f, &white(self.density, shared.dt), 0.0);
         self.thin();
         let before = self.ln_total();
@@ -202,9 +209,9 @@ impl VelocityChanges {
 
     /// Logarithm of the sum of all weights, "no change" being 1, with what the data have said so far.
     fn ln_total(&self) -> f64 {
-        let of = |hypothesis: &Hypothesis| hypothesis.ln_slot() + hypothesis.ln_mass;
-        let most = self.open.iter().map(of).fold(0.0, f64::max);
-        let sum: f64 = self.open.iter().map(|hypothesis| (of(hypothesis) - most).exp()).sum();
+        let all = || self.open.iter().map(Hypothesis::ln_weight);
+        let most = all().fold(0.0, f64::max);
+        let sum: f64 = all().map(|ln_weight| (ln_weight - most).exp()).sum();
         most + ((-most).exp() + sum).ln()
     }
 
@@ -217,14 +224,15 @@ impl VelocityChanges {
         self.weighed.ln_total = ln_total;
         self.weighed.quiet = (-ln_total).exp();
         for (part, hypothesis) in self.weighed.parts.iter_mut().zip(&self.open) {
-            part.scale((hypothesis.ln_slot() + hypothesis.ln_mass - ln_total).exp());
+            part.scale((hypothesis.ln_weight() - ln_total).exp());
         }
     }
 
     /// The mixture takes the place of the quiet filter.
     fn decide(&mut self) {
         let Moments { mean, p } = self.mixture().moments();
-        self.remember_watched();
+        let begun = self.begun();
+        self.remember_watched(begun);
         let parts = std::mem::take(&mut self.weighed.parts);
         let mut open = std::mem::take(&mut self.open);
         self.remember_time(&open, &parts);
@@ -238,11 +246,7 @@ impl VelocityChanges {
         self.count(&weights);
         let likeliest = (0..parts.len()).max_by(|a, b| parts[*a].weight().total_cmp(&parts[*b].weight()));
         if let Some(place) = likeliest.filter(|_| self.directions.is_some()) {
-            self.watched = Some(Watched {
-                without: self.quiet.clone(),
-                hypothesis: open.swap_remove(place),
-                weights,
-            });
+            self.watched = Some(Watched::new(self.quiet.clone(), open.swap_remove(place), weights));
         }
         self.quiet = Member { dx: mean, p };
         self.weighed = Weighed {
@@ -257,15 +261,28 @@ impl VelocityChanges {
         if let Some(watched) = &mut self.watched {
             watched.take(shared, dt, self.density);
             if watched.hypothesis.age > self.window {
-                self.remember_watched();
+                self.remember_watched(0.0);
             }
         }
     }
 
+    /// For how long, s, the change that is being decided upon may have been there: the oldest hypothesis that is not much less likely
+    /// than the likeliest.
+    fn begun(&self) -> f64 {
+        let weights = || self.weighed.parts.iter().map(Part::weight);
+        let enough = weights().fold(0.0, f64::max) * NOT_MUCH_LESS;
+        let oldest = weights().zip(&self.open).find(|(weight, _)| *weight >= enough);
+        oldest.map_or(0.0, |(_, hypothesis)| hypothesis.age)
+    }
+
     /// Learns where the change pointed that was watched.
-    fn remember_watched(&mut self) {
-        if let (Some(watched), Some(directions)) = (self.watched.take(), &mut self.directions) {
-            directions.learn(&watched.found());
+    ///
+    /// * `spoilt_s`: for how long the data have spoken of something else, too.
+    fn remember_watched(&mut self, spoilt_s: f64) {
+        if let (Some(watched), Some(directions)) = (self.watched.take(), &mut self.directions)
+            && let Some(found) = watched.found(spoilt_s)
+        {
+            directions.learn(&found);
         }
     }
 
@@ -275,9 +292,9 @@ impl VelocityChanges {
         let all: f64 = parts.iter().map(Part::weight).sum();
         let (mut age, mut square) = (0.0, 0.0);
         for (hypothesis, part) in hypotheses.iter().zip(parts) {
-            let (share, slot) = (part.weight() / all, hypothesis.span.max(spacing(hypothesis.age)));
+            let share = part.weight() / all;
             age += share * hypothesis.age;
-            square += share * (hypothesis.age.powi(2) + slot * slot / 12.0);
+            square += share * (hypothesis.age.powi(2) + hypothesis.span.powi(2) / 12.0);
         }
         if all > CERTAIN {
             schedule.learn(self.elapsed - age, (square - age * age).max(0.0), all.min(1.0));
@@ -290,29 +307,24 @@ impl VelocityChanges {
         }
     }
 
-    /// Drops what stands closer than its age allows, and folds in what is too old.
+    /// Drops what stands closer to an older one than its age allows, and folds in what is too old.
     fn thin(&mut self) {
         while let Some(oldest) = self.open.first()
             && oldest.age > self.window
         {
             self.fold_oldest();
         }
-        let first = spacing(0.0);
-        let mut due = 0.0;
-        self.open.retain_mut(|hypothesis| {
-            let every = (spacing(hypothesis.age) / first).round().max(1.0) as u64;
-            let stays = hypothesis.slot.is_multiple_of(every);
-            // What was due at one that goes is due at the next.
-            if stays {
-                hypothesis.due += std::mem::take(&mut due);
-            } else {
-                due += hypothesis.due;
+        self.open.dedup_by(|next, older| {
+            let goes = older.age - next.age < spacing(next.age) - TICK;
+            if goes {
+                older.stand_for(next);
             }
-            stays
+            goes
         });
     }
 
-    /// The oldest hypothesis and "no change" become one.
+    /// The oldest hypothesis and "no change" become one: weights stay as they are, and so does the mean of the whole mixture. The
+    /// others are told from "no change" and move with it.
     fn fold_oldest(&mut self) {
         let oldest = self.open.remove(0);
         if self.weighed.parts.is_empty() {
@@ -328,11 +340,13 @@ impl VelocityChanges {
         }
         if weight > NEGLIGIBLE {
             self.count(&part.weights);
-            let share = weight / (weight + self.weighed.quiet);
-            let off = oldest.e * part.first / weight;
-            self.quiet.dx += off * share;
-            self.quiet.p += oldest.e * (part.second * (share / weight)) * oldest.e.transpose();
-            self.quiet.p.ger(-share * share, &off, &off, 1.0);
+            let by = oldest.e * part.first;
+            self.quiet.dx += by;
+            self.quiet.p += oldest.e * part.second * oldest.e.transpose();
+            self.quiet.p.ger(-1.0, &by, &by, 1.0);
+            let more = (weight / self.weighed.quiet).ln_1p();
+            self.open.iter_mut().for_each(|hypothesis| hypothesis.ln_base += more);
+            self.weighed.quiet += weight;
         }
     }
 
@@ -341,11 +355,8 @@ impl VelocityChanges {
     /// * `relative`: position and velocity of the estimate, 6.
     fn open_next(&mut self, relative: &Vector6<f64>) {
         // What the first estimate leaves would be taken for changes, and their rates be learnt from it.
-        if self.elapsed < SETTLING || self.since < spacing(0.0) - 1e-9 {
+        if self.elapsed < SETTLING || self.since < spacing(0.0) - TICK {
             return;
-        }
-        if let Some(last) = self.open.last_mut() {
-            last.span = self.since;
         }
         let per_found = 1.0 / (PRIOR_TIME + self.elapsed);
         let rates: [f64; SIZES] = std::array::from_fn(|i| (self.prior[i] + self.found[i]) * per_found);
@@ -358,17 +369,9 @@ impl VelocityChanges {
             schedule.expected(self.elapsed, spacing(0.0), self.window)
         });
         let due = expected / rates.iter().sum::<f64>();
-        let slot = (self.elapsed / spacing(0.0)).round() as u64;
-        self.open.push(Hypothesis::new(slot, due, priors, axes));
+        self.open.push(Hypothesis::new(due, priors, axes));
         self.weighed.parts.push(Part::default());
         self.since = 0.0;
-    }
-}
-
-impl Hypothesis {
-    /// Logarithm of the time for which it stands, s.
-    fn ln_slot(&self) -> f64 {
-        (spacing(self.age).max(self.span).min(self.age) + self.due).ln()
     }
 }
 
@@ -410,8 +413,13 @@ mod tests {
     }
 
     fn step(g: &mut Generator) -> Shared {
+        step_of(g, 1.0)
+    }
+
+    /// * `dt`: s.
+    fn step_of(g: &mut Generator, dt: f64) -> Shared {
         let mut f = Matrix6::identity();
-        f.fixed_view_mut::<3, 3>(0, 3).fill_diagonal(1.0);
+        f.fixed_view_mut::<3, 3>(0, 3).fill_diagonal(dt);
         let rows: [Row; 3] = std::array::from_fn(|i| {
             let mut h = RowVector6::zeros();
             h[i] = 1.0;
@@ -425,7 +433,7 @@ mod tests {
                 r: 0.04,
             }
         });
-        Shared::of(1.0, f, Seen::of(&rows))
+        Shared::of(dt, f, Seen::of(&rows))
     }
 
     /// A hypothesis against a filter that is really run with it: at t_j its velocity becomes unsure by S, and from there on mean,
@@ -483,8 +491,8 @@ mod tests {
         });
         let mut open = changes.clone();
         changes.decide();
-        let slot = changes.watched.as_ref().unwrap().hypothesis.slot;
-        let place = open.open.iter().position(|h| h.slot == slot).unwrap();
+        let age = changes.watched.as_ref().unwrap().hypothesis.age;
+        let place = open.open.iter().position(|h| (h.age - age).abs() < TICK).unwrap();
         let mut hypothesis = open.open.swap_remove(place);
         for _ in 0..20 {
             let shared = step(g);
@@ -502,27 +510,97 @@ mod tests {
         let expected = hypothesis.given(&prior);
         let mut watched = changes.watched.unwrap();
         watched.weights = [0.0, 1.0, 0.0, 0.0, 0.0];
-        let found = watched.found();
+        let found = watched.found(0.0).unwrap();
         assert!((found.d - expected.mean).amax() < 1e-12 * expected.mean.amax());
         assert!((found.v - expected.v).amax() < 1e-12 * expected.v.amax());
     }
 
-    /// After an hour of samples without news there are no more hypotheses than the spacings allow, and they stand as these say.
+    /// A change that comes while the last is watched: of that one counts what the data had said before.
+    #[test]
+    fn a_change_is_not_learnt_from_what_the_next_one_did() {
+        let g = &mut stream(8, 0, Source::Lidar);
+        let mut changes = changes();
+        (0..12).for_each(|_| {
+            changes.take(&step(g));
+        });
+        changes.decide();
+        let mut early = None;
+        for k in 1..=45 {
+            changes.take(&step(g));
+            if k == 20 {
+                early = changes.watched.clone();
+            }
+        }
+        let said = |watched: &Option<Watched>, spoilt: f64| watched.clone().unwrap().found(spoilt);
+        let expected = said(&early, 0.0).unwrap();
+        // It is kept at once, after 20 s and after 40 s, and now is 45 s.
+        for (spoilt, after_20) in [(0.0, false), (4.0, false), (6.0, true), (25.0, true), (26.0, false)] {
+            let found = said(&changes.watched, spoilt).unwrap();
+            assert_eq!(found.d == expected.d && found.v == expected.v, after_20, "{spoilt}");
+        }
+        assert!(said(&changes.watched, 46.0).is_none());
+    }
+
+    /// Weights and mean of the whole mixture before and after; its covariance but for the product of the two moves.
+    #[test]
+    fn folding_moves_neither_weights_nor_mean() {
+        let g = &mut stream(12, 0, Source::Lidar);
+        let mut changes = changes();
+        changes.prior = [3.0; SIZES];
+        changes.decided = 0.0;
+        (0..40).for_each(|_| {
+            changes.take(&step(g));
+        });
+        changes.weigh();
+        let (before, quiet, oldest) = (
+            changes.mixture().moments(),
+            changes.weighed.quiet,
+            changes.weighed.parts[0],
+        );
+        let weights: Vec<f64> = changes.weighed.parts.iter().map(Part::weight).collect();
+        assert!(
+            weights[0] > 0.01 && quiet > 0.01 && weights.len() > 4,
+            "{weights:?} {quiet}"
+        );
+        let by = changes.open[0].e * oldest.first;
+        changes.fold_oldest();
+        let after = changes.mixture().moments();
+        assert!((after.mean - before.mean).amax() < 1e-14 * before.mean.amax().max(1.0));
+        let others = before.mean - by - (changes.quiet.dx - by);
+        let cross = others * by.transpose() + by * others.transpose();
+        assert!((after.p - (before.p + cross)).amax() < 1e-12 * before.p.amax());
+        assert!((changes.weighed.quiet - (quiet + weights[0])).abs() < 1e-15);
+        changes.weigh();
+        for (part, weight) in changes.weighed.parts.iter().zip(&weights[1..]) {
+            assert!((part.weight() - weight).abs() < 1e-13, "{} {weight}", part.weight());
+        }
+        assert!((changes.weighed.quiet - (quiet + weights[0])).abs() < 1e-13);
+    }
+
+    /// An hour of samples without news, at any pace: no more hypotheses than the spacings allow, and every time has one.
     #[test]
     fn hypotheses_are_thinned_with_age() {
-        let g = &mut stream(6, 0, Source::Lidar);
-        let mut changes = changes();
-        for _ in 0..3600 {
-            changes.take(&step(g));
+        for period in [1.0, 3.0, 7.0, 25.0, 60.0] {
+            let g = &mut stream(6, 0, Source::Lidar);
+            let mut changes = changes();
+            for _ in 0..(3600.0 / period) as u32 {
+                changes.take(&step_of(g, period));
+            }
+            assert_eq!(changes.decisions(), 0);
+            let ages: Vec<f64> = changes.open.iter().map(|h| h.age).collect();
+            assert!(ages.len() <= 20, "{ages:?}");
+            for (pair, older) in ages.windows(2).zip(&changes.open) {
+                let apart = pair[0] - pair[1];
+                assert!(apart >= spacing(pair[1]) - TICK, "{ages:?}");
+                assert!(apart < 2.0 * spacing(pair[0]).max(period), "{ages:?}");
+                assert!((older.span - apart).abs() < TICK, "{} {ages:?}", older.span);
+            }
+            let newest = changes.open.last().unwrap();
+            assert!((newest.span + period - newest.age).abs() < period + TICK);
+            assert!(
+                ages[0] <= changes.window && ages[0] > changes.window - 40.0 - 2.0 * period,
+                "{ages:?}"
+            );
         }
-        assert_eq!(changes.decisions(), 0);
-        let ages: Vec<f64> = changes.open.iter().map(|h| h.age).collect();
-        assert!(ages.len() <= 20, "{ages:?}");
-        for pair in ages.windows(2) {
-            let apart = pair[0] - pair[1];
-            let allowed = spacing(pair[1]);
-            assert!(apart >= allowed - 1e-9 && apart <= 2.0 * spacing(pair[0]), "{ages:?}");
-        }
-        assert!(ages[0] <= changes.window && ages[0] > changes.window - 45.0, "{ages:?}");
     }
 }

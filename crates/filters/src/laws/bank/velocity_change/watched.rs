@@ -1,7 +1,8 @@
 //! A change that has been decided upon, watched until its direction is known.
 //!
 //! That there was a change is clear long before it is clear where it pointed, and the filter that goes on with it cannot tell any more
-//! what the data alone say. So the filter without it goes on beside, for as long as a hypothesis would.
+//! what the data alone say. So the filter without it goes on beside, for as long as a hypothesis would, or until the next change: what
+//! the data said before that one is kept.
 
 use super::super::centre::{Shared, white};
 use super::super::member::Member;
@@ -9,6 +10,9 @@ use super::directions::Found;
 use super::hypothesis::{Hypothesis, SIZES};
 use nalgebra::{Matrix3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
+
+/// Time between what is kept of what the data have said, s.
+const KEPT: f64 = 20.0;
 
 /// The filter without the change, and the change.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -19,9 +23,32 @@ pub(super) struct Watched {
     pub hypothesis: Hypothesis,
     /// Probability that there was one, by size.
     pub weights: [f64; SIZES],
+    /// What the data had said of it, the oldest first.
+    said: Vec<Said>,
+}
+
+/// What the data had said when the change was this old.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Said {
+    /// s.
+    age: f64,
+    /// C, 3x3, and d.
+    c: Matrix3<f64>,
+    /// 3.
+    d: Vector3<f64>,
 }
 
 impl Watched {
+    pub(super) fn new(without: Member<6>, hypothesis: Hypothesis, weights: [f64; SIZES]) -> Self {
+        let said = vec![Said::of(&hypothesis)];
+        Self {
+            without,
+            hypothesis,
+            weights,
+            said,
+        }
+    }
+
     /// Takes a sample in.
     ///
     /// * `density`: white acceleration density of the quiet filter.
@@ -33,6 +60,13 @@ impl Watched {
             self.hypothesis.take(row, &taken);
         }
         shared.follow(&mut self.without);
+        if self
+            .said
+            .last()
+            .is_none_or(|said| self.hypothesis.age >= said.age + KEPT)
+        {
+            self.said.push(Said::of(&self.hypothesis));
+        }
     }
 
     /// Deviations are from another mean now.
@@ -40,9 +74,24 @@ impl Watched {
         self.without.dx -= shift;
     }
 
-    /// What the data say of it.
-    pub(super) fn found(&self) -> Found {
-        found(&self.hypothesis, &self.weights)
+    /// What the data say of it; `None` where all of it is spoilt.
+    ///
+    /// * `spoilt_s`: for how long they have spoken of something else, too.
+    pub(super) fn found(self, spoilt_s: f64) -> Option<Found> {
+        let mut hypothesis = self.hypothesis;
+        if spoilt_s > 0.0 {
+            let before = self.said.iter().rev();
+            let Said { c, d, .. } = before.into_iter().find(|said| hypothesis.age - said.age >= spoilt_s)?;
+            (hypothesis.c, hypothesis.d) = (*c, *d);
+        }
+        Some(found(&hypothesis, &self.weights))
+    }
+}
+
+impl Said {
+    fn of(hypothesis: &Hypothesis) -> Self {
+        let Hypothesis { age, c, d, .. } = *hypothesis;
+        Self { age, c, d }
     }
 }
 
