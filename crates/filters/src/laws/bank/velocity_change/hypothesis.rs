@@ -1,6 +1,7 @@
 //! One past time at which the velocity may have changed.
 
-use super::super::member::Taken;
+use super::super::centre::{Shared, white};
+use super::super::member::{Member, Taken};
 use super::super::rows::Row;
 use super::axes::Axes;
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
@@ -202,6 +203,32 @@ impl Hypothesis {
             v,
         }
     }
+}
+
+/// A filter and what may have happened to it, a step further; it and every hypothesis.
+///
+/// * `density`: white acceleration density of the filter; `dt`: the step, s.
+pub(super) fn predict(filter: &mut Member<6>, hypotheses: &mut [Hypothesis], shared: &Shared, density: f64, dt: f64) {
+    hypotheses
+        .iter_mut()
+        .for_each(|hypothesis| hypothesis.predict(dt, &shared.f));
+    shared.predict(filter, &shared.f, &white(density, shared.dt), 0.0);
+}
+
+/// Both take the sample in.
+///
+/// * returns: its log-likelihood under the filter, as [`Member::update`] has it.
+pub(super) fn update(filter: &mut Member<6>, hypotheses: &mut [Hypothesis], shared: &Shared) -> f64 {
+    let mut log_likelihood = 0.0;
+    for row in shared.seen.iter() {
+        let taken = filter.take(row);
+        log_likelihood += taken.log_likelihood();
+        hypotheses
+            .iter_mut()
+            .for_each(|hypothesis| hypothesis.take(row, &taken));
+    }
+    shared.follow(filter);
+    log_likelihood
 }
 
 /// The other two of three places, in the order that makes cofactors of them.

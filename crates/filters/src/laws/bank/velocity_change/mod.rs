@@ -1,15 +1,9 @@
 //! "The velocity changed by some amount at some time", kept open until the data decide.
 //!
 //! A vent is over before it can be seen: its effect grows out of the noise tens to hundreds of seconds later. So a quiet filter is
-//! accompanied by hypotheses, one for each of a set of past times t_j and sizes c: the velocity changed at t_j by D ~ N(0, c^2 I).
-//! Under a hypothesis the quiet filter's estimate is off by E D, its innovations by G D, with
-//!
-//! ```text
-//!     E <- F E,  G = H E,  C <- C + G' S^-1 G,  d <- d + G' S^-1 v,  E <- E - K G,   E = [0; I] at t_j,
-//! ```
-//!
-//! so that given the data D ~ N(V d, V), V = (C + I / c^2)^-1, and its weight against "no change" is
-//! rate_c * slot * exp(d' V d / 2) / sqrt(det(I + c^2 C)). The quiet filter is never run again.
+//! accompanied by hypotheses, one for each of a set of past times: the velocity changed then, by D. Under one the quiet filter's estimate
+//! is off by E D, its innovations by G D, and C and d gather what these say of D. docs/laws.md derives it; the quiet filter is never run
+//! again.
 
 mod axes;
 mod directions;
@@ -17,7 +11,7 @@ mod hypothesis;
 mod schedule;
 mod watched;
 
-use super::centre::{Shared, white};
+use super::centre::Shared;
 use super::member::Member;
 use super::mixture::{Mixture, Moments};
 use crate::units::Units;
@@ -155,24 +149,15 @@ impl VelocityChanges {
         self.elapsed += dt;
         self.since += dt;
         self.watch(shared, dt);
-        self.open
-            .iter_mut()
-            .for_each(|hypothesis| hypothesis.predict(dt, &shared.f));
+        hypothesis::predict(&mut self.quiet, &mut self.open, shared, self.density, dt);
         if let Some(newest) = self.open.last_mut() {
             newest.span = newest.age;
         }
-        shared.predict(&mut self.quiet, &shared.f, &white(self.density, shared.dt), 0.0);
         self.thin();
         let before = self.ln_total();
-        let mut log_likelihood = 0.0;
-        for row in shared.seen.iter() {
-            let taken = self.quiet.take(row);
-            log_likelihood += taken.log_likelihood();
-            self.open.iter_mut().for_each(|hypothesis| hypothesis.take(row, &taken));
-        }
-        shared.follow(&mut self.quiet);
+        let of_quiet = hypothesis::update(&mut self.quiet, &mut self.open, shared);
         self.weigh();
-        log_likelihood += self.weighed.ln_total - before;
+        let log_likelihood = of_quiet + (self.weighed.ln_total - before);
         if self.weighed.quiet < self.decided {
             self.decide();
         }
@@ -383,6 +368,7 @@ fn spacing(age: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::centre::white;
     use super::super::rows::{Row, Seen};
     use super::hypothesis::{Posterior, Prior};
     use super::*;

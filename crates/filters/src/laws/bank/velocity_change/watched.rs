@@ -4,10 +4,10 @@
 //! what the data alone say. So the filter without it goes on beside, for as long as a hypothesis would, or until the next change: what
 //! the data said before that one is kept.
 
-use super::super::centre::{Shared, white};
+use super::super::centre::Shared;
 use super::super::member::Member;
 use super::directions::Found;
-use super::hypothesis::{Hypothesis, SIZES};
+use super::hypothesis::{self, Hypothesis, SIZES};
 use nalgebra::{Matrix3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -53,13 +53,9 @@ impl Watched {
     ///
     /// * `density`: white acceleration density of the quiet filter.
     pub(super) fn take(&mut self, shared: &Shared, dt_s: f64, density: f64) {
-        self.hypothesis.predict(dt_s, &shared.f);
-        shared.predict(&mut self.without, &shared.f, &white(density, shared.dt), 0.0);
-        for row in shared.seen.iter() {
-            let taken = self.without.take(row);
-            self.hypothesis.take(row, &taken);
-        }
-        shared.follow(&mut self.without);
+        let change = std::slice::from_mut(&mut self.hypothesis);
+        hypothesis::predict(&mut self.without, change, shared, density, dt_s);
+        hypothesis::update(&mut self.without, change, shared);
         if self
             .said
             .last()
@@ -80,8 +76,8 @@ impl Watched {
     pub(super) fn found(self, spoilt_s: f64) -> Option<Found> {
         let mut hypothesis = self.hypothesis;
         if spoilt_s > 0.0 {
-            let before = self.said.iter().rev();
-            let Said { c, d, .. } = before.into_iter().find(|said| hypothesis.age - said.age >= spoilt_s)?;
+            let mut newest_first = self.said.iter().rev();
+            let Said { c, d, .. } = newest_first.find(|said| hypothesis.age - said.age >= spoilt_s)?;
             (hypothesis.c, hypothesis.d) = (*c, *d);
         }
         Some(found(&hypothesis, &self.weights))
