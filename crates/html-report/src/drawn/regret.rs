@@ -1,4 +1,5 @@
-//! Laws against the best constant, level by level, with the bounds that none can pass.
+//! Laws against the best constant, level by level, with bounds: `clairvoyant`, told all that pushes the target, which none can pass, and
+//! `times_known`, told when and never how hard.
 
 use std::path::Path;
 
