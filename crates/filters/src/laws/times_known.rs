@@ -50,11 +50,13 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             tunable: "q_active",
             low: 1e-6,
             high: 1.0,
+            only_with: None,
         },
         Search {
             tunable: "q_quiet",
             low: 1e-9,
             high: 1e-3,
+            only_with: None,
         },
     ],
 };
