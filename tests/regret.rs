@@ -87,7 +87,7 @@ fn laws_are_held_against_the_best_constant_of_each_level() {
     let bound = |level: &str, of: &str, column: &str| {
         let own = rows
             .iter()
-            .filter(|r| r["level"] == level && r["kind"] == "bound" && r["filter"].starts_with(of));
+            .filter(|r| r["level"] == level && r["kind"] == "bound" && r["family"] == of);
         let shown: Vec<f64> = own
             .filter(|r| !r["pos_ratio"].is_empty())
             .map(|r| number(r, column))

@@ -120,6 +120,10 @@ fn annotated() -> Filters {
             variable: variable(search.tunable),
             low: search.low,
             high: search.high,
+            only_with: search.only_with.map(|(tunable, item)| Set {
+                variable: variable(tunable),
+                value: item.to_owned(),
+            }),
         }));
         all.bounds.extend(filter.bound.then(|| Bound {
             filter: filter.name.to_owned(),

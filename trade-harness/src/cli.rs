@@ -641,16 +641,16 @@ fn case_name(text: &str) -> Result<String, String> {
 )]
 pub struct ReplayArgs {
     /// Folder of a finished study whose run it is; without one, the options say which study
-    #[arg(value_name = "DIR", conflicts_with_all = ["mission", "filters", "seed", "assignments", "variations", "step", "scheme", "truth", "foreign"])]
+    #[arg(value_name = "DIR", conflicts_with_all = ["mission", "filters", "seed", "assignments", "variations", "step", "scheme", "truth", "foreign", "drivers", "allow_truth", "mappings", "map_files", "tuned"])]
     pub dir: Option<PathBuf>,
     /// Of the filters of the study in DIR, this one alone; repeatable
-    #[arg(long = "filter", value_name = "LABEL", requires = "dir")]
+    #[arg(long = "filter", value_name = "LABEL")]
     pub labels: Vec<String>,
     /// Case of the study in DIR, where it has several
-    #[arg(long, value_name = "NAME", requires = "dir")]
+    #[arg(long, value_name = "NAME")]
     pub case: Option<String>,
-    /// Go on with FMUs and files that are others than they were
-    #[arg(long, requires = "dir")]
+    /// Of the study in DIR: go on with FMUs and files that are others than they were
+    #[arg(long)]
     pub other_files: bool,
     /// Mission that comes with the project [default: leo_venting, or the first of the study in DIR]
     #[arg(long, value_name = "NAME", conflicts_with = "mission")]

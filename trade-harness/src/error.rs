@@ -45,6 +45,14 @@ pub enum HarnessError {
         /// All names.
         known: String,
     },
+    /// An option of a finished study, and no study.
+    #[error("{option} is for a run of a finished study: give its folder, as in `trade-harness replay DIR`; {instead}")]
+    NeedsAStudy {
+        /// The option.
+        option: &'static str,
+        /// What does without a study.
+        instead: &'static str,
+    },
     /// A library that workers cannot load first.
     #[error("--preload {}: {why}", library.display())]
     Preload {

@@ -42,6 +42,50 @@ fn errors_are_documents_with_the_same_exit_code() {
 }
 
 #[test]
+fn options_of_a_finished_study_ask_for_its_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("replay.csv");
+    for (own, instead) in [
+        (&["--filter", "milton"][..], "--filters"),
+        (&["--case", "strong"], "--set"),
+        (&["--other-files"], "as they are"),
+    ] {
+        // An option that is not for a run of a study must not hide that the folder is missing.
+        for beside in [&[][..], &["--seed", "3"], &["--filters", "snc"]] {
+            let line = [&["replay", "--out", out.to_str().unwrap()], own, beside].concat();
+            let ended = output(&line);
+            let told = String::from_utf8_lossy(&ended.stderr);
+            assert_eq!(ended.status.code(), Some(2), "{line:?}: {told}");
+            for says in [own[0], "replay DIR", instead] {
+                assert!(told.contains(says), "{line:?}: {told}");
+            }
+            assert!(!out.exists(), "{line:?}");
+        }
+    }
+}
+
+#[test]
+fn options_of_a_run_of_its_own_are_refused_beside_a_study() {
+    for option in [
+        &["--filters", "snc"][..],
+        &["--seed", "3"],
+        &["--drive", "push=p.fmu"],
+        &["--allow-truth"],
+        &["--map", "mine.y=est.r_tc_n"],
+        &["--map-file", "names.toml"],
+        &["--tuned", "tuned.json"],
+    ] {
+        let ended = output(&[&["replay", "nowhere"], option].concat());
+        let told = String::from_utf8_lossy(&ended.stderr);
+        assert_eq!(ended.status.code(), Some(2), "{option:?}: {told}");
+        assert!(
+            told.contains(option[0]) && told.contains("cannot be used with"),
+            "{option:?}: {told}"
+        );
+    }
+}
+
+#[test]
 fn what_is_listed_is_one_document() {
     for line in [&["list"][..], &["list", "filters"], &["list", "missions"], &["columns"]] {
         let told = output(&[line, &["--json"]].concat());

@@ -53,7 +53,10 @@ impl Source {
 
     /// What a sample is to those before it.
     ///
-    /// A source that begins to count again is known by an ordinal below the last one with an epoch beyond it.
+    /// A source that begins to count again is known by an ordinal below the last one with an epoch beyond it. The ordinal of the last
+    /// one is that sample, whatever its time: a filter acts once for each new count, and times may move in between, as where a master
+    /// interpolates Reals or a source stamps what it holds anew. So a source that begins again with the very ordinal that was last, as
+    /// one does that had said no more than its first, is heard from its next one on, and its beginning is not counted.
     pub(crate) fn arrival(&self, sample: &Sample) -> Arrival {
         let beyond = self.time.is_none_or(|last| sample.time > last);
         let lower = sample.count < self.count;
@@ -150,6 +153,25 @@ mod tests {
             assert_eq!(arrives(&mut source, count, time), arrival, "{count} at {time} s");
         }
         assert_eq!((source.duplicates(), source.restarts()), (2, 1));
+    }
+
+    #[test]
+    fn the_last_ordinal_is_the_last_sample_whatever_its_time() {
+        let mut source = source("leo_venting");
+        for (count, time, arrival) in [
+            (1, 1.0, New),
+            // A source that begins again with the ordinal that was last cannot be told from times that move.
+            (1, 1.5, Known),
+            (1, 0.5, Known),
+            (1, 10.0, Known),
+            // It is heard from its next.
+            (2, 11.0, New),
+            (3, 12.0, New),
+            (2, 20.0, New),
+        ] {
+            assert_eq!(arrives(&mut source, count, time), arrival, "{count} at {time} s");
+        }
+        assert_eq!((source.duplicates(), source.restarts()), (0, 1));
     }
 
     /// Steps of any length, handed over at once or one step late, of a source of one second, and of one that is sampled more rarely.

@@ -1,6 +1,6 @@
 //! What a search for the best tuning may vary must be legal wherever the filter has a meaning.
 
-#![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
 
 use filters::laws::FILTERS;
 use filters::tunable::{Kind, Value};
@@ -40,6 +40,14 @@ fn every_corner_of_a_search_is_a_legal_tuning() {
                         entry.name,
                         range.tunable
                     );
+                    if let Some((choice, item)) = range.only_with {
+                        let declared = entry.tunables.iter().find(|t| t.name == choice).unwrap();
+                        let Kind::Choice { items, .. } = declared.kind else {
+                            panic!("{}.{choice} is no choice", entry.name);
+                        };
+                        let place = items.iter().position(|own| *own == item).unwrap();
+                        *settings.tunable_mut(entry.name, choice).unwrap() = Value::Choice(place);
+                    }
                     let end = if corner >> i & 1 == 0 { range.low } else { range.high };
                     *settings.tunable_mut(entry.name, range.tunable).unwrap() = Value::Real(end);
                 }

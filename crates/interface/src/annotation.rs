@@ -77,6 +77,14 @@ pub struct Search {
     /// Largest value.
     #[serde(rename = "@high", with = "number")]
     pub high: f64,
+    /// What has to be set for the parameter to have an effect, as `VARIABLE=VALUE`; nothing where it always has one.
+    #[serde(
+        rename = "@onlyWith",
+        with = "setting",
+        default,
+        skip_serializing_if = "Option::is_none"
+    )]
+    pub only_with: Option<Set>,
 }
 
 /// Where a filter has a meaning.
@@ -208,6 +216,29 @@ mod number {
     }
 }
 
+/// A variable and its value, `VARIABLE=VALUE`.
+mod setting {
+    use super::*;
+
+    pub(super) fn serialize<S: Serializer>(set: &Option<Set>, to: S) -> Result<S::Ok, S::Error> {
+        match set {
+            Some(Set { variable, value }) => to.collect_str(&format_args!("{variable}={value}")),
+            None => to.serialize_none(),
+        }
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Set>, D::Error> {
+        let text = String::deserialize(from)?;
+        let Some((variable, value)) = text.split_once('=') else {
+            return Err(serde::de::Error::custom(format!("{text:?} is not VARIABLE=VALUE")));
+        };
+        Ok(Some(Set {
+            variable: variable.trim().to_owned(),
+            value: value.trim().to_owned(),
+        }))
+    }
+}
+
 /// Names with commas between them.
 mod names {
     use super::*;
@@ -239,6 +270,7 @@ mod tests {
       </Meaning>
       <Searches>
         <Search variable="gate" low="1e-7" high=" 0.01"/>
+        <Search variable="milton.r_w" low="1" high="2" onlyWith="milton.residuals=consistent"/>
       </Searches>
       <Bounds><Bound filter="oracle"/></Bounds>
       <Later thing="unknown today"/>
@@ -270,8 +302,15 @@ mod tests {
             variable: "gate".to_owned(),
             low: 1e-7,
             high: 1e-2,
+            only_with: None,
         };
-        assert_eq!(filters.searches, [gate]);
+        let r_w = Search {
+            variable: "milton.r_w".to_owned(),
+            low: 1.0,
+            high: 2.0,
+            only_with: Some(set("milton.residuals", "consistent")),
+        };
+        assert_eq!(filters.searches, [gate, r_w]);
         assert_eq!(filters.meanings[0].scenarios, ["formation", "far"]);
         assert!(filters.is_bound("oracle") && !filters.is_bound("milton"));
     }
@@ -283,7 +322,7 @@ mod tests {
         let twice = Filters::read([XML, XML]).unwrap();
         assert_eq!(
             (twice.presets.len(), twice.searches.len(), twice.meanings.len()),
-            (4, 2, 2)
+            (4, 4, 2)
         );
     }
 
@@ -340,6 +379,12 @@ mod tests {
             ),
             (" 0.01", "much", "\"much\" is no number", "<Search variable=\"gate\""),
             (
+                "residuals=consistent",
+                "residuals",
+                "\"milton.residuals\" is not VARIABLE=VALUE",
+                "<Search variable=\"milton.r_w\"",
+            ),
+            (
                 "Search variable=\"gate\"",
                 "Search",
                 "missing attribute `variable`",
@@ -361,7 +406,11 @@ mod tests {
             text.starts_with("<Filters><Presets><Preset filter=\"milton\" name=\"paper\""),
             "{text}"
         );
-        assert!(text.contains("low=\"1e-7\" high=\"0.01\""), "{text}");
+        assert!(text.contains("low=\"1e-7\" high=\"0.01\"/>"), "{text}");
+        assert!(
+            text.contains("high=\"2.0\" onlyWith=\"milton.residuals=consistent\"/>"),
+            "{text}"
+        );
         assert!(text.contains("scenarios=\"formation,far\""), "{text}");
         assert_eq!(read(&text).unwrap(), filters);
     }

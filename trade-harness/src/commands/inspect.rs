@@ -4,7 +4,7 @@ use fmi2_import::Fmu;
 use serde_json::json;
 use study::filters_of;
 
-use super::list::{variable_json, variables};
+use super::list::{only_with, variable_json, variables};
 use super::out::Out;
 use super::shared::Verdict;
 use crate::HarnessError;
@@ -70,8 +70,12 @@ pub(super) fn inspect(args: &InspectArgs, out: &mut Out<'_>) -> Result<Verdict, 
     }
     for s in &filters.searches {
         out.say(&format!(
-            "{:30} {} from {:?} to {:?}",
-            "search of tune", s.variable, s.low, s.high
+            "{:30} {} from {:?} to {:?}{}",
+            "search of tune",
+            s.variable,
+            s.low,
+            s.high,
+            only_with(s)
         ))?;
     }
     for (title, causality) in GROUPS {

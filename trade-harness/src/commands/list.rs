@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::ValueEnum;
 use comfy_table::{ContentArrangement, Table, presets};
 use fmi2_import::{Causality, EnumerationItem, ModelDescription, Variable, suggest};
-use interface::annotation::Filters;
+use interface::annotation::{Filters, Search};
 use interface::ports::{PORTS, Shape};
 use serde_json::{Value, json};
 use study::{DISTRIBUTIONS, FilterChoice, NAV, PAPER, TRUTH, filters_of, worlds};
@@ -310,8 +310,11 @@ fn describe_filter(nav: &ModelDescription, told: &Filters, item: &EnumerationIte
     }
     for search in told.searches.iter().filter(|s| prefix(&s.variable) == filter) {
         say(&format!(
-            "  tune: {} from {:?} to {:?}",
-            search.variable, search.low, search.high
+            "  tune: {} from {:?} to {:?}{}",
+            search.variable,
+            search.low,
+            search.high,
+            only_with(search)
         ));
     }
     let own: Vec<&Variable> = parameters(nav).filter(|v| prefix(&v.name) == filter).collect();
@@ -327,6 +330,13 @@ fn parameters(description: &ModelDescription) -> impl Iterator<Item = &Variable>
         .variables
         .iter()
         .filter(|v| v.causality == Causality::Parameter)
+}
+
+/// Under which setting alone a search has an effect, to be put behind its range.
+pub(super) fn only_with(search: &Search) -> String {
+    let told = search.only_with.as_ref();
+    told.map(|set| format!(" with {} = {}", set.variable, set.value))
+        .unwrap_or_default()
 }
 
 fn prefix(name: &str) -> &str {

@@ -26,6 +26,9 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
     if as_parquet && !cfg!(feature = "parquet") {
         return Err(HarnessError::NoParquet);
     }
+    if args.dir.is_none() {
+        check_without_a_study(args)?;
+    }
     start_again_with(&args.preload)?;
     prepare_file(&args.out)?;
     let folder = scratch()?;
@@ -112,6 +115,29 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
         lines.iter().map(Vec::len).sum::<usize>()
     ))?;
     Ok(Verdict::Done)
+}
+
+/// Refuses, where no study is named, what only says something of one.
+///
+/// Not by clap's `requires`, which says nothing of a folder that is missing where another option excludes it.
+fn check_without_a_study(args: &ReplayArgs) -> Result<(), HarnessError> {
+    let given = [
+        ("--filter", !args.labels.is_empty(), "a run of its own takes --filters"),
+        (
+            "--case",
+            args.case.is_some(),
+            "a run of its own has no cases, it takes --set",
+        ),
+        (
+            "--other-files",
+            args.other_files,
+            "a run of its own takes files as they are",
+        ),
+    ];
+    match given.into_iter().find(|(_, given, _)| *given) {
+        Some((option, _, instead)) => Err(HarnessError::NeedsAStudy { option, instead }),
+        None => Ok(()),
+    }
 }
 
 /// What a run of a finished study is made of.

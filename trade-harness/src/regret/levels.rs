@@ -22,7 +22,8 @@ pub struct Levels {
     /// The best of all of them, in hindsight, is what laws are held against.
     #[serde(rename = "fixed")]
     pub families: Vec<Family>,
-    /// What no law can pass, of each the best in hindsight.
+    /// Told by the truth what no law knows, of each the best of its values in hindsight. `clairvoyant` alone cannot be passed:
+    /// `times_known` is told when something pushes, never how hard.
     #[serde(rename = "bound", default)]
     pub bounds: Vec<Family>,
 }

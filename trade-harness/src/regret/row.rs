@@ -66,6 +66,11 @@ pub const COLUMNS: &[Column<Row>] = &[
         r.filter.as_str().into()
     }),
     text(
+        "family",
+        "filter without its values, the same for all of a family",
+        |r| family(&r.filter).into(),
+    ),
+    text(
         "kind",
         "law, fixed: of constant noise, or bound: told by the truth",
         |r| r.kind.name().into(),
@@ -131,4 +136,20 @@ pub fn render(rows: &[Row]) -> Result<Vec<u8>, HarnessError> {
 /// A row by the names of its columns.
 pub fn told(row: &Row) -> serde_json::Map<String, serde_json::Value> {
     column::fields(COLUMNS, row)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::family;
+
+    #[test]
+    fn members_of_a_family_are_known_by_what_stands_before_their_values() {
+        let members = [
+            "dmc(sigma=1e-5,time_constant=1e2)",
+            "dmc(sigma=1e-6,time_constant=1e3)",
+            "dmc",
+        ];
+        assert_eq!(members.map(family), ["dmc"; 3]);
+        assert_eq!(family("milton@consistent"), "milton@consistent");
+    }
 }

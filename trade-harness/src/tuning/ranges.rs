@@ -4,6 +4,7 @@ use std::str::FromStr;
 
 use cosim::Value;
 use fmi2_import::ModelDescription;
+use interface::annotation::Set;
 use study::{Assignment, Model, Participant, check_real_range};
 
 use crate::HarnessError;
@@ -90,7 +91,8 @@ fn rounded(value: f64) -> f64 {
     format!("{value:.*e}", (DIGITS - 1) as usize).parse().unwrap_or(value)
 }
 
-/// The parameters of one filter that are searched: those its FMU proposes, then those that `--range` adds.
+/// The parameters of one filter that are searched: those its FMU proposes, as far as they have an effect with the settings that the
+/// filter starts from, then those that `--range` adds.
 ///
 /// * `filter`: the filter of fmu-nav; its parameters begin with its name. `None` for a foreign FMU, which is one filter.
 /// * `participant`: the filter as it would run without a search, for the values it starts from; what it varies from run
@@ -128,7 +130,11 @@ pub fn axes(
         .filters
         .searches
         .iter()
-        .filter(|s| own(&s.variable) && !taken(&s.variable));
+        .filter(|s| own(&s.variable) && !taken(&s.variable))
+        .filter(|s| {
+            let starts_so = |set: &Set| is_start(description, set, participant.start(&set.variable));
+            s.only_with.as_ref().is_none_or(starts_so)
+        });
     let mut chosen: Vec<(&str, f64, f64)> = proposed.map(|s| (s.variable.as_str(), s.low, s.high)).collect();
     for range in asked() {
         match chosen.iter_mut().find(|(variable, ..)| *variable == range.variable) {
@@ -154,6 +160,16 @@ pub fn axes(
 pub fn concerns(nav: &ModelDescription, filter: &str, variable: &str) -> bool {
     let prefix = variable.split('.').next().unwrap_or(variable);
     prefix == filter || !nav.items("filter").iter().any(|i| i.name == prefix)
+}
+
+/// Whether a filter starts with a variable at this value; not so where the FMU has no such variable or value.
+///
+/// * `given`: what it starts with where that is not the FMU's own start value.
+fn is_start(description: &ModelDescription, set: &Set, given: Option<&Value>) -> bool {
+    description.get(&set.variable).is_some_and(|variable| {
+        let start = given.cloned().or_else(|| variable.start());
+        variable.parse_value(&set.value).is_ok_and(|value| start == Some(value))
+    })
 }
 
 fn check(model: &Model, name: &str, low: f64, high: f64) -> Result<(), HarnessError> {
@@ -182,6 +198,7 @@ fn start(description: &ModelDescription, participant: &Participant, name: &str) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use interface::annotation::{Filters, TOOL};
 
     fn axis(start: Option<f64>) -> Axis {
         Axis {
@@ -207,6 +224,40 @@ mod tests {
         ] {
             assert!(bad.parse::<Range>().unwrap_err().contains("LOW:HIGH"), "{bad}");
         }
+    }
+
+    #[test]
+    fn a_search_is_made_where_its_parameter_has_an_effect() {
+        let file = crate::pack::home_workspace().join("modelDescription/fmu-nav/modelDescription.xml");
+        let nav = ModelDescription::parse(&std::fs::read(&file).unwrap(), &file).unwrap();
+        let set = |variable: &str, value: &str| Set {
+            variable: variable.to_owned(),
+            value: value.to_owned(),
+        };
+        let regression = set("constrained_q.law", "regression");
+        let number = nav
+            .get(&regression.variable)
+            .unwrap()
+            .parse_value(&regression.value)
+            .unwrap();
+        assert!(
+            !is_start(&nav, &regression, None),
+            "it is by likelihood unless told otherwise"
+        );
+        assert!(is_start(&nav, &regression, Some(&number)));
+        assert!(is_start(&nav, &set("constrained_q.law", "likelihood"), None));
+        for (variable, value) in [("constrained_q.law", "chance"), ("constrained_q.lore", "regression")] {
+            assert!(
+                !is_start(&nav, &set(variable, value), Some(&number)),
+                "{variable}={value}"
+            );
+        }
+        let told = Filters::read(nav.annotations(TOOL)).unwrap();
+        let own = told
+            .searches
+            .iter()
+            .filter(|s| s.variable.starts_with("constrained_q."));
+        assert!(own.clone().count() > 0 && own.clone().all(|s| s.only_with.as_ref() == Some(&regression)));
     }
 
     #[test]

@@ -23,11 +23,13 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             tunable: QUIET.name,
             low: 1e-7,
             high: 1e-3,
+            only_with: None,
         },
         Search {
             tunable: RATE.name,
             low: 1e-2,
             high: 1e2,
+            only_with: None,
         },
     ],
 };

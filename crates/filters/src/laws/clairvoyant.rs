@@ -38,6 +38,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         tunable: "q",
         low: 1e-9,
         high: 1e-5,
+        only_with: None,
     }],
 };
 

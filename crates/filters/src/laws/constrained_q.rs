@@ -133,29 +133,34 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             ],
         },
     ],
+    // All are of the regression; nothing of the law by likelihood is searched.
     search: &[
         // As of MILTON, and on to where the prior decides: only the ratio of r_w to s_spread^4 matters.
         Search {
             tunable: "r_w",
             low: 1e-10,
             high: 1e8,
+            only_with: Some(REGRESSION),
         },
         // An update comes every m_b + 1 samples, a run has some hundreds.
         Search {
             tunable: "memory",
             low: 1.0,
             high: 1e3,
+            only_with: Some(REGRESSION),
         },
         Search {
             tunable: "s_prior",
             low: 1e-9,
             high: 1e-3,
+            only_with: Some(REGRESSION),
         },
         // From just above s_min, where Q is all but fixed.
         Search {
             tunable: "s_max",
             low: 2e-7,
             high: 1e-1,
+            only_with: Some(REGRESSION),
         },
     ],
 };

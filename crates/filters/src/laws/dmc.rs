@@ -48,12 +48,14 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             tunable: "sigma",
             low: 1e-8,
             high: 1e-3,
+            only_with: None,
         },
         // From the sampling period to beyond the slowest disturbance.
         Search {
             tunable: "time_constant",
             low: 1.0,
             high: 1e4,
+            only_with: None,
         },
     ],
 };

@@ -34,6 +34,8 @@ pub struct Search {
     pub low: f64,
     /// Largest value.
     pub high: f64,
+    /// The choice, a tunable and its item, under which alone the tunable has an effect; `None` where it always has one.
+    pub only_with: Option<(&'static str, &'static str)>,
 }
 
 /// A registered filter.

@@ -51,6 +51,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             tunable: "s",
             low: 1e-9,
             high: 1e-3,
+            only_with: None,
         },
     ],
 };

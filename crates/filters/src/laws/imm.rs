@@ -22,6 +22,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         tunable: SOJOURN.name,
         low: 1.0,
         high: 1e5,
+        only_with: None,
     }],
 };
 

@@ -101,22 +101,26 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             tunable: "r_w",
             low: 1e-10,
             high: 1e4,
+            only_with: None,
         },
         // Of s squared, where s is 1e-9 to 1e-2 in SI and 1e5 times as much in the units of a halo orbit.
         Search {
             tunable: "q_w",
             low: 1e-18,
             high: 1.0,
+            only_with: None,
         },
         Search {
             tunable: "psi0",
             low: 1e-16,
             high: 1e2,
+            only_with: None,
         },
         Search {
             tunable: "s0",
             low: 1e-12,
             high: 1e-3,
+            only_with: None,
         },
     ],
 };

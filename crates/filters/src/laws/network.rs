@@ -111,6 +111,7 @@ pub(super) const SEARCH_LEARNING_RATE: Search = Search {
     tunable: "learning_rate",
     low: 1e-4,
     high: 1.0,
+    only_with: None,
 };
 
 /// How a search varies the shape.
@@ -118,6 +119,7 @@ pub(super) const SEARCH_SHAPE: Search = Search {
     tunable: "shape",
     low: 1e-3,
     high: 1.0,
+    only_with: None,
 };
 
 const fn real(start: Start, unit: &'static str, bound: Bound) -> Kind {

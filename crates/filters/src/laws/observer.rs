@@ -53,11 +53,13 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             tunable: "k_position",
             low: 1e-4,
             high: 10.0,
+            only_with: None,
         },
         Search {
             tunable: "k_velocity",
             low: 1e-4,
             high: 10.0,
+            only_with: None,
         },
     ],
 };

@@ -99,6 +99,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             tunable: "alpha",
             low: 0.5,
             high: 1.0,
+            only_with: None,
         },
     ],
 };

@@ -37,6 +37,7 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             tunable: "q",
             low: 1e-7,
             high: 1e-2,
+            only_with: None,
         },
     ],
 };

@@ -36,6 +36,7 @@ pub(super) const SEARCH_Q_POSITION: Search = Search {
     tunable: Q_POSITION.name,
     low: 1e-16,
     high: 1e-3,
+    only_with: None,
 };
 
 /// How a search varies [`Q_VELOCITY`].
@@ -43,6 +44,7 @@ pub(super) const SEARCH_Q_VELOCITY: Search = Search {
     tunable: Q_VELOCITY.name,
     low: 1e-18,
     high: 1e-6,
+    only_with: None,
 };
 
 /// Q per internal unit of time from [`Q_POSITION`] and [`Q_VELOCITY`], detuned if the study says so; 9x9, internal units.

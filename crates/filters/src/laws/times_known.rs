@@ -1,4 +1,6 @@
 //! A bound: the filter that is told when something unannounced pushes the target, not how hard or in which direction.
+//!
+//! It has one density for all pushes, so a law that learns how hard each of them is may pass it where they are unlike.
 
 use super::adaptation::{Adaptation, Hindsight, Setup};
 use super::entry::{FilterEntry, Motion, Search, Update};
@@ -42,17 +44,19 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
         other_reading: false,
         sets: &[],
     }],
-    // A bound by its best in hindsight: from a vent of the missions, 1e-5 m/s2, to a burn.
+    // What suits it is known in hindsight: from a vent of the missions, 1e-5 m/s2, to a burn.
     search: &[
         Search {
             tunable: "q_active",
             low: 1e-6,
             high: 1.0,
+            only_with: None,
         },
         Search {
             tunable: "q_quiet",
             low: 1e-9,
             high: 1e-3,
+            only_with: None,
         },
     ],
 };

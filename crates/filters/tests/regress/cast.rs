@@ -35,7 +35,7 @@ pub fn everywhere() -> impl Iterator<Item = (String, Navigator, Box<dyn World>, 
             for (tunable, text) in preset.map_or(&[][..], |preset| sets(law, preset)) {
                 *settings.tunable_mut(law.name, tunable).unwrap() = value(law, tunable, text);
             }
-            let (world, start) = world(entry.name);
+            let (world, start) = world(entry.name, law.bound);
             let nav = Navigator::new(&told, &settings, 0.0).unwrap();
             let label = preset.map_or_else(|| law.name.to_owned(), |preset| format!("{}@{preset}", law.name));
             (format!("{label} in {}", entry.name), nav, world, start)
@@ -55,11 +55,13 @@ fn value(law: &FilterEntry, tunable: &str, text: &str) -> Value {
     }
 }
 
-fn world(mission: &str) -> (Box<dyn World>, State) {
+/// * `pushed`: whether something unannounced pushes the target.
+fn world(mission: &str, pushed: bool) -> (Box<dyn World>, State) {
     match mission {
         "leo_venting" => {
             let chaser = Vector6::new(6.878e6, 0.0, 0.0, 0.0, 7350.0, 1970.0);
-            let (world, start) = Approach::new(|r, _| astro::earth::FILTER.acceleration(r), &chaser, [8.0, 0.1]);
+            let (world, start) =
+                Approach::new(|r, _| astro::earth::FILTER.acceleration(r), &chaser, [8.0, 0.1], pushed);
             (Box::new(world), start)
         }
         "nrho_venting" => {
@@ -73,7 +75,12 @@ fn world(mission: &str) -> (Box<dyn World>, State) {
             };
             let chaser = Vector6::new(0.9879, 1.432e-2, 2.009e-3, 7.173e-2, 0.9238, -0.8528);
             let chaser = Vector6::from_fn(|i, _| chaser[i] * unit(i));
-            let (world, start) = Approach::new(|r, v| Cr3bpSystem::EARTH_MOON.acceleration(r, v), &chaser, [9.0, 2e-8]);
+            let (world, start) = Approach::new(
+                |r, v| Cr3bpSystem::EARTH_MOON.acceleration(r, v),
+                &chaser,
+                [9.0, 2e-8],
+                pushed,
+            );
             (Box::new(world), start)
         }
         _ => {

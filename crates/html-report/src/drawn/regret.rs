@@ -1,4 +1,5 @@
-//! Laws against the best constant, level by level, with the bounds that none can pass.
+//! Laws against the best constant, level by level, with bounds: `clairvoyant`, told all that pushes the target, which none can pass, and
+//! `times_known`, told when and never how hard.
 
 use std::path::Path;
 
@@ -19,7 +20,7 @@ pub(super) fn sheets(folder: &Path) -> Result<Vec<(String, Sheet)>, ReportError>
     let rows = table(
         folder,
         TABLE,
-        &["mission", "level", "filter", "kind", "pos_ratio", "vel_ratio"],
+        &["mission", "level", "filter", "family", "kind", "pos_ratio", "vel_ratio"],
     )?;
     let of_kind = |kind| rows.iter().filter(move |row| row.text("kind") == kind);
     let (laws, bounds): (Vec<&Row>, Vec<&Row>) = (of_kind("law").collect(), of_kind("bound").collect());
@@ -45,12 +46,6 @@ fn names<'a>(rows: impl IntoIterator<Item = &'a &'a Row>, of: impl Fn(&'a Row) -
     names
 }
 
-/// A bound without the values of the member of its family.
-fn family(row: &Row) -> &str {
-    let label = row.text("filter");
-    label.split_once('(').map_or(label, |(family, _)| family)
-}
-
 /// Lines of the bounds, one for each family.
 const DASHES: [Option<Dash>; 3] = [None, Some((5, 2)), Some((2, 2))];
 
@@ -58,7 +53,7 @@ const DASHES: [Option<Dash>; 3] = [None, Some((5, 2)), Some((2, 2))];
 fn of_mission(mission: &str, rows: &[&Row], bounds: &[&Row]) -> Sheet {
     let levels = names(rows.iter().chain(bounds), |row| row.text("level"));
     let filters = names(rows, |row| row.text("filter"));
-    let families = names(bounds, family);
+    let families = names(bounds, |row| row.text("family"));
     let level = |row: &Row| levels.iter().position(|name| name == row.text("level"));
     let dash = |index: usize| DASHES[index % DASHES.len()];
     let place = |v: f64| v.clamp(EDGES[0], EDGES[1]).log10();
@@ -80,7 +75,7 @@ fn of_mission(mission: &str, rows: &[&Row], bounds: &[&Row]) -> Sheet {
         panel.sides.0 = 24 + 7 * levels.iter().map(String::len).max().unwrap_or(0) as u32;
         panel.lines.push(line(vec![(0.0, -0.5), (0.0, last)], 1.0, INK));
         for row in bounds {
-            let place_of = families.iter().position(|name| name == family(row));
+            let place_of = families.iter().position(|name| name == row.text("family"));
             let (Some(level), Some(index), Some(value)) = (level(row), place_of, row.number(column)) else {
                 continue;
             };

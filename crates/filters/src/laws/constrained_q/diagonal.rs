@@ -1,6 +1,6 @@
 //! The regression solved for a diagonal density: a quadratic programme in three unknowns.
 
-use super::conic::{self, NoAnswer};
+use super::conic::{self, Almost, NoAnswer};
 use clarabel::solver::NonnegativeConeT;
 use nalgebra::{Matrix3, Vector3};
 
@@ -30,7 +30,14 @@ pub(super) fn minimise(h: &Matrix3<f64>, g: &Vector3<f64>, lower: f64, upper: f6
     // nine decades away makes it give up.
     let mut stated = [false; 3];
     loop {
-        let u = conic::solve(&cost, &linear, &rows, &limits, &[NonnegativeConeT(rows.len())])?;
+        let u = conic::solve(
+            &cost,
+            &linear,
+            &rows,
+            &limits,
+            &[NonnegativeConeT(rows.len())],
+            Almost::Taken,
+        )?;
         let before = limits.len();
         for i in 0..3 {
             let limit = (upper - lower) * scale[i] / size;

@@ -8,7 +8,7 @@
 //! is solved again, until no eigenvalue violates its bound: then the answer of a programme with fewer constraints
 //! satisfies all of them, and is the minimum of the semidefinite one.
 
-use super::conic::{self, NoAnswer};
+use super::conic::{self, Almost, NoAnswer};
 use crate::laws::correlation::FULL;
 use clarabel::solver::{SecondOrderConeT, SupportedConeT};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
@@ -123,7 +123,7 @@ pub(super) fn minimise(h: &Matrix6<f64>, g: &Vector6<f64>, lower: f64, upper: f6
     // A bound that the answer keeps clear of is never mentioned to the solver: its tolerances are relative to the limits.
     above.cut(&Matrix3::identity(), &[true; 3], &mut cuts);
     for _ in 0..ROUNDS {
-        let u = conic::solve(&cost, &linear, &cuts.rows, &cuts.limits, &cuts.cones)?;
+        let u = conic::solve(&cost, &linear, &cuts.rows, &cuts.limits, &cuts.cones, Almost::Taken)?;
         let u = matrix(&Vector6::from(u));
         let mut kept = true;
         for (margin, largest) in [(&above, u.amax().max(1.0)), (&below, 1.0)] {

@@ -4,7 +4,7 @@
 //! Every member gathers log-likelihoods L, which fade within minutes. At each sample [`programme`] finds the weights, and what is
 //! reported is the mixture under them. A second sum fades within half a minute: it stands in for the first while it clearly says
 //! something else, so that neither a vent after a long quiet nor the quiet after it has to outweigh minutes of evidence. When the
-//! solver does not solve, the last weights stay and the case is counted.
+//! solver does not solve, or only almost does, the last weights stay and the case is counted.
 
 use super::programme::{self, Bounds, MEMBERS, PerMember};
 use crate::error::FilterError;

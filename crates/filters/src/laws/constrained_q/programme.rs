@@ -1,6 +1,6 @@
 //! Weights of the members of a bank from what each has explained, within bounds on what they stand for on average.
 
-use super::conic::{self, NoAnswer};
+use super::conic::{self, Almost, NoAnswer};
 use crate::laws::bank::reweigh;
 use clarabel::solver::{ExponentialConeT, NonnegativeConeT, ZeroConeT};
 use serde::{Deserialize, Serialize};
@@ -80,7 +80,14 @@ fn by_cones(evidence: &PerMember, bounds: &Bounds) -> Result<PerMember, NoAnswer
         limits.extend([0.0, 0.0, 1.0]);
         cones.push(ExponentialConeT());
     }
-    let answer = conic::solve(&[[0.0; UNKNOWNS]; UNKNOWNS], &linear, &rows, &limits, &cones)?;
+    let answer = conic::solve(
+        &[[0.0; UNKNOWNS]; UNKNOWNS],
+        &linear,
+        &rows,
+        &limits,
+        &cones,
+        Almost::Refused,
+    )?;
     let positive: PerMember = std::array::from_fn(|k| answer[k].max(0.0));
     let sum: f64 = positive.iter().sum();
     Ok(positive.map(|w| w / sum))
