@@ -9,8 +9,9 @@ use common::{OwnWorld, navigation};
 use filters::laws::FILTERS;
 use filters::state::State;
 use filters::tunable::Value;
-use filters::{Navigator, Reading, Settings};
+use filters::{Navigator, Reading, Sample, Settings};
 use formation::{Formation, World};
+use std::time::{Duration, Instant};
 
 fn settings(filter: &str, tunables: &[(&str, Value)]) -> Settings {
     let mut settings = Settings {
@@ -125,4 +126,80 @@ fn bounds_of_a_density_make_a_bank_less_sure_or_surer() {
     assert!((loud / one - 1.0).abs() < 0.01, "{loud} and {one}");
     let quiet = sigma("constrained_q", &[("q_max", 2e-6)]);
     assert!(quiet < 0.7 * free, "{quiet} and {free}");
+}
+
+const OURS: [&str; 5] = ["change_point", "hybrid", "imm", "mmae", "constrained_q"];
+
+/// A target that pushes for ten seconds every four minutes, hard every third time, and samples that are lost.
+fn pushed(seconds: u32) -> (Vec<Sample>, State) {
+    let (mut world, start) = OwnWorld::new(4, 1e-9);
+    let sample = |k: u32| {
+        let push = match (k % 240, (k / 240) % 3) {
+            (100..110, 0) => 3e-2,
+            (100..110, _) => 1e-4,
+            _ => 0.0,
+        };
+        world
+            .x
+            .fixed_rows_mut::<3>(6)
+            .copy_from_slice(&[push, -push, 0.5 * push]);
+        let mut sample = world.step();
+        if k % 11 == 3 {
+            sample.sensors.fill(Reading::Lost);
+        }
+        sample
+    };
+    ((0..seconds).map(sample).collect(), start)
+}
+
+/// With all that it may learn.
+fn navigator(filter: &str) -> Navigator {
+    let schedule: &[_] = match filter {
+        "change_point" | "hybrid" => &[("schedule", Value::Boolean(true))],
+        _ => &[],
+    };
+    Navigator::new(&navigation("leo_venting"), &settings(filter, schedule), 0.0).unwrap()
+}
+
+/// Each step by the quickest of nine passes through the same samples: what another process took from one pass, it does not take from
+/// all of them.
+#[test]
+fn no_step_costs_ten_times_the_median() {
+    let (samples, start) = pushed(1500);
+    for filter in OURS {
+        let mut costs = vec![Duration::MAX; samples.len()];
+        for _ in 0..9 {
+            let mut nav = navigator(filter);
+            for (sample, cost) in samples.iter().zip(&mut costs) {
+                let clock = Instant::now();
+                nav.process(sample, &start).unwrap();
+                *cost = clock.elapsed().min(*cost);
+            }
+            let decides = !matches!(filter, "imm" | "mmae");
+            assert_eq!(nav.updates() > 0, decides, "{filter}");
+        }
+        costs.sort_unstable();
+        let (median, most) = (costs[costs.len() / 2], costs[costs.len() - 1]);
+        assert!(most < 10 * median, "{filter}: {most:?} and {median:?}");
+    }
+}
+
+#[test]
+fn a_bank_keeps_no_more_in_its_second_three_hours_than_in_its_first() {
+    let hours = 3 * 3600;
+    let (samples, start) = pushed(2 * hours);
+    for filter in OURS {
+        let mut nav = navigator(filter);
+        let most: Vec<usize> = (samples.chunks(hours as usize))
+            .map(|chunk| {
+                let kept = chunk.iter().map(|sample| {
+                    nav.process(sample, &start).unwrap();
+                    postcard::to_allocvec(&nav).unwrap().len()
+                });
+                kept.max().unwrap()
+            })
+            .collect();
+        // Counts are written shorter while they are small.
+        assert!(most[1] <= most[0] + 100, "{filter}: {most:?}");
+    }
 }

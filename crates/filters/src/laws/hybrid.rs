@@ -3,14 +3,14 @@
 
 use super::adaptation::Setup;
 use super::bank::velocity_change::VelocityChanges;
-use super::bank::{Bank, CONSTANTS, Centre, Member, Mixture, Shared, Weights};
+use super::bank::{Bank, CONSTANTS, Centre, Member, Mixture, Shared, Weights, contaminate};
 use super::change_point::{DECIDED, DIRECTIONS, QUIET, RATE, SCHEDULE, WINDOW, velocity_changes};
 use super::entry::{FilterEntry, Motion, Update};
 use super::mmae::{Decades, MEMORY};
 use crate::error::FilterError;
 use crate::jerk;
 use crate::state::{Target, TargetMatrix};
-use crate::tunable::Tunables;
+use crate::tunable::{Bound, Kind, Start, Tunable, Tunables};
 use nalgebra::{Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -18,8 +18,12 @@ use serde::{Deserialize, Serialize};
 const WHITE: [f64; 5] = [1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 /// Walking accelerations, square roots of the jerk densities, m/s^2.5.
 const WALKING: [f64; 2] = [1e-8, 1e-7];
-/// Weight of the hypotheses at the start; the white ones halve by the decade, and share the rest with the walking ones.
+/// Weight of the hypotheses at the start; the others share the rest.
 const PRIOR_CHANGES: f64 = 0.7;
+/// Weight of a white one over that of the one a decade quieter.
+const LOUDER: f64 = 0.25;
+/// Weight of a walking one over that of the quietest white one.
+const PRIOR_WALKING: f64 = 1.0 / 32.0;
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
     name: "hybrid",
@@ -28,9 +32,29 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     update: Update::Kalman,
     ours: true,
     bound: false,
-    tunables: &[QUIET, RATE, WINDOW, DECIDED, DIRECTIONS, SCHEDULE, MEMORY],
+    tunables: &[
+        QUIET,
+        RATE,
+        WINDOW,
+        DECIDED,
+        DIRECTIONS,
+        SCHEDULE,
+        MEMORY,
+        CONTAMINATION,
+    ],
     presets: &[CONSTANTS],
     search: &[],
+};
+
+/// Tunable `contamination`.
+const CONTAMINATION: Tunable = Tunable {
+    name: "contamination",
+    about: "share of samples of which no member is taken to know better than another; 1 over it is the most that one sample can say",
+    kind: Kind::Real {
+        start: Start::Fixed(0.01),
+        unit: "1",
+        bound: Bound::Fraction,
+    },
 };
 
 /// The bank; its weights stand in the order: changes, white, walking.
@@ -41,6 +65,8 @@ pub struct Hybrid {
     white: Decades,
     walking: Vec<Walking>,
     weights: Weights,
+    /// As [`CONTAMINATION`].
+    contamination: f64,
     /// Variance of an acceleration at the start, internal units.
     acceleration: f64,
 }
@@ -59,11 +85,10 @@ impl Hybrid {
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
         let Tunables { told, .. } = &setup.tunables;
         let mut prior = vec![PRIOR_CHANGES];
-        let rest = WHITE.len() + WALKING.len();
-        let halving = (0..rest).map(|k| 0.5_f64.powi(k.min(WHITE.len()) as i32));
-        let halving: Vec<f64> = halving.collect();
-        let sum: f64 = halving.iter().sum();
-        prior.extend(halving.iter().map(|w| (1.0 - PRIOR_CHANGES) * w / sum));
+        let of_white = std::iter::successors(Some(1.0), |weight| Some(weight * LOUDER)).take(WHITE.len());
+        let others: Vec<f64> = of_white.chain(WALKING.map(|_| PRIOR_WALKING)).collect();
+        let sum: f64 = others.iter().sum();
+        prior.extend(others.iter().map(|weight| (1.0 - PRIOR_CHANGES) * weight / sum));
         let walking = WALKING.map(|s| Walking {
             density: (s / setup.units.root_jerk_density()).powi(2) * setup.off_nominal,
             member: Member {
@@ -80,6 +105,7 @@ impl Hybrid {
             white,
             walking: walking.to_vec(),
             weights,
+            contamination: setup.tunables.real(CONTAMINATION.name)?,
             acceleration: (told.p0.acceleration / setup.units.acceleration()).powi(2),
         })
     }
@@ -107,6 +133,7 @@ impl Bank for Hybrid {
             let noise = jerk::process_noise(&Vector3::repeat(*density), shared.dt);
             likelihoods.push(shared.take(member, &f, &noise, self.acceleration));
         }
+        contaminate(&mut likelihoods, self.contamination);
         self.weights.update(shared.dt, &likelihoods);
     }
 

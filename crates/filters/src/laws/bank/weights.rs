@@ -14,6 +14,17 @@ pub(in crate::laws) fn reweigh(weights: &mut [f64], log_likelihoods: &[f64]) {
     weights.iter_mut().for_each(|weight| *weight /= sum);
 }
 
+/// Log-likelihoods where of a share e of the samples no member knows better than any other (Huber's contamination): L becomes
+/// (1 - e) L + e max L, so that no single sample makes one member more than 1 / e times as likely as another.
+///
+/// * `log_likelihoods`: one for each member.
+pub(in crate::laws) fn contaminate(log_likelihoods: &mut [f64], share: f64) {
+    let most = log_likelihoods.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    for log in log_likelihoods {
+        *log = most + ((1.0 - share) * (*log - most).exp() + share).ln();
+    }
+}
+
 /// Weights that likelihoods move and that slowly return to what they were.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::laws) struct Weights {
@@ -50,5 +61,36 @@ impl Weights {
     /// The weights, which sum to one.
     pub(in crate::laws) fn get(&self) -> &[f64] {
         &self.now
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By the formula, with likelihoods written out; one that is nothing beside the best is a hundredth of it, and none without a share.
+    #[test]
+    fn one_sample_makes_no_member_more_than_a_hundred_times_as_likely() {
+        let likelihoods = [3.0_f64, 2.0, 0.4];
+        let mut logs = likelihoods.map(f64::ln);
+        contaminate(&mut logs, 0.01);
+        for (log, likelihood) in logs.iter().zip(likelihoods) {
+            assert!((log.exp() - (0.99 * likelihood + 0.03)).abs() < 1e-14);
+        }
+        let mut logs = [-1e4, -2e6];
+        contaminate(&mut logs, 0.01);
+        assert!(logs[0] == -1e4 && (logs[1] - (-1e4 + 0.01_f64.ln())).abs() < 1e-11);
+        let mut plain = [-1.0, -5.0];
+        contaminate(&mut plain, 0.0);
+        assert!((plain[0] + 1.0).abs() < 1e-15 && (plain[1] + 5.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn weights_return_to_what_they_were() {
+        let mut weights = Weights::new(&[3.0, 1.0], 10.0);
+        weights.update(0.0, &[0.0, 100.0]);
+        assert!(weights.get()[0] < 1e-40);
+        (0..1000).for_each(|_| weights.update(1.0, &[0.0, 0.0]));
+        assert!((weights.get()[0] - 0.75).abs() < 1e-12);
     }
 }
