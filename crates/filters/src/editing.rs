@@ -8,7 +8,8 @@
 //!
 //! * where it stands out from the samples before, too. With e the mean of what the last n of them left, v - e is the change that was
 //!   measured less the one that was predicted; it has the noise R (1 + 1/n) and next to nothing of what a filter that lags is off by.
-//!   There are four of them, or as many as are fresh; where none is, only what is beyond all bounds is passed by;
+//!   There are four of them, or as many as are fresh and have come since the last suspect; where none is, only what is beyond all
+//!   bounds is passed by;
 //! * where the filter's record speaks for it: of the sensor's last samples at most a third were suspected;
 //! * not more than a few times in a row, and then not again until a sample fits.
 //!
@@ -106,6 +107,16 @@ impl Watched {
         (count > 0.0).then(|| (sum / count, 1.0 / count))
     }
 
+    /// Takes note of a sample that was used. A suspect that is used speaks of a filter that has begun to lag, and what the samples
+    /// before it have left says nothing of what it will be off by next.
+    fn remember(&mut self, last: Used) {
+        if self.suspected & 1 == 1 {
+            self.used = [None; BEFORE];
+        }
+        self.used.rotate_right(1);
+        self.used[0] = Some(last);
+    }
+
     /// Whether a measurement is far from the last one used, whatever a filter thinks of either.
     fn is_far(&self, z: &Rows, sensor: Sensor) -> bool {
         self.used[0].is_some_and(|used| {
@@ -194,9 +205,10 @@ impl Editing {
             let (Some(rows), Some(z)) = (layout.of_sensor(sensor), sample[sensor].seen()) else {
                 continue;
             };
-            // The quadratic form alone must make up for the odds; that of a part is not above that of the whole.
+            // The quadratic form must make up for the odds, of which half is asked here: the S of a bank's mixture may be somewhat below
+            // that of its own update.
             let watched = &mut self.watched[sensor as usize];
-            let (outlier, gross) = if nis >= 2.0 * odds {
+            let (outlier, gross) = if nis >= odds {
                 let seen = Seen::new(step, rows, excess().as_ref(), r);
                 (seen.is_outlier(odds), seen.is_gross())
             } else {
@@ -241,14 +253,12 @@ impl Editing {
                 for (left, row) in left.iter_mut().zip(rows) {
                     *left = step.innovation[row] - (step.h.row(row) * moved)[0];
                 }
-                let used = &mut self.watched[sensor as usize].used;
                 let last = Used {
                     time_s: sample.time,
                     z,
                     left,
                 };
-                used.rotate_right(1);
-                used[0] = Some(last);
+                self.watched[sensor as usize].remember(last);
             }
         }
     }
@@ -487,6 +497,21 @@ mod tests {
             // There is nothing before the first.
             assert!(!finds_at(&mut editing, 1000.0, 1e6, None));
             assert_eq!(finds_at(&mut editing, 1000.0 + moved, v, None), doubted, "{v} {moved}");
+        }
+    }
+
+    /// Off by nothing twice, then by 30, of which a tenth is taken in: 31 is the same change as 30, if that was used as a suspect, and
+    /// a new one against the mean of all three if it was not.
+    #[test]
+    fn after_a_suspect_that_was_used_only_what_came_since_counts() {
+        for (suspected, doubted) in [(0, true), (1, false)] {
+            let mut editing = after(&[(3.0, 0.0), (2.0, 0.0)]);
+            editing.watched[LIDAR].suspected = suspected;
+            let mut sample = Sample::blank(1, 0.0);
+            sample[Sensor::Lidar] = Reading::of(&[1000.0, 0.0, 0.0]);
+            let layout = Layout::new(&[Sensor::Lidar]);
+            editing.remember(&sample, &step(30.0), &(Target::x() * 3.0), layout);
+            assert_eq!(finds(&mut editing, 31.0, None), doubted);
         }
     }
 

@@ -132,12 +132,13 @@ pub struct Navigator {
     untold: Option<Untold>,
 }
 
-/// Epochs of the accelerometer alone, as one: their length, transition and correction of the target's nine states.
+/// Epochs of the accelerometer alone, as one: their length, transition and corrections of the target's nine states.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Between {
     dt: f64,
     f: TargetMatrix,
     correction: Target,
+    linear: Target,
 }
 
 impl Between {
@@ -148,11 +149,13 @@ impl Between {
                 dt: step.dt,
                 f: step.f,
                 correction: step.correction,
+                linear: step.linear,
             },
             Some(before) => Self {
                 dt: before.dt + step.dt,
                 f: step.f * before.f,
                 correction: step.f * before.correction + step.correction,
+                linear: step.f * before.linear + step.linear,
             },
         }
     }
@@ -301,7 +304,8 @@ impl Navigator {
         let mut seen = estimator.update(&sample, &mut step)?;
         if let Some(all) = seen {
             // Asked for only where there is something to doubt.
-            let excess = || self.law.excess(&f.fixed_view::<6, 6>(0, 0).into_owned());
+            let since = self.between.as_ref().map_or(f, |before| f * before.f);
+            let excess = || self.law.excess(&since.fixed_view::<6, 6>(0, 0).into_owned());
             let outliers = self.editing.find(&sample, &step, all.nis, excess, self.layout, &self.r);
             if !outliers.is_empty() {
                 outliers
@@ -320,7 +324,8 @@ impl Navigator {
         let due = self.layout.any_due(&sample);
         let mut moved = step.correction;
         if due {
-            (step.dt, step.f, step.correction) = (whole.dt, whole.f, whole.correction);
+            (step.dt, step.f) = (whole.dt, whole.f);
+            (step.correction, step.linear) = (whole.correction, whole.linear);
             self.law.observe(&step)?;
             if let Some(own) = self.law.replacement() {
                 estimator.shift(&own.shift);
@@ -336,7 +341,8 @@ impl Navigator {
         }
         self.editing.remember(&sample, &step, &moved, self.layout);
         self.law.look_ahead(&estimator.relative());
-        let Reported { x, p_target, sigma } = estimator.report(&sample, &self.law);
+        let since = self.between.as_ref().map(|between| &between.f);
+        let Reported { x, p_target, sigma } = estimator.report(&sample, &self.law, since);
         self.estimate = Estimate {
             time: sample.time,
             count: sample.count,

@@ -5,7 +5,7 @@ use crate::innovation::Innovation;
 use crate::laws::{Adaptation, Step};
 use crate::sample::Sample;
 use crate::state::{State, TargetMatrix};
-use nalgebra::Vector6;
+use nalgebra::{SMatrix, Vector6};
 
 /// Mean, covariance and standard deviations, SI, as in [`crate::Estimate`].
 pub(crate) struct Reported {
@@ -66,7 +66,9 @@ pub(crate) trait Estimator {
     fn relative(&self) -> Vector6<f64>;
 
     /// The estimate in SI.
-    fn report(&self, sample: &Sample, law: &dyn Adaptation) -> Reported;
+    ///
+    /// * `since`: transition from the sample that the law has observed last, 9x9; `None` where that is this one.
+    fn report(&self, sample: &Sample, law: &dyn Adaptation, since: Option<&TargetMatrix>) -> Reported;
 
     /// The first thing wrong with mean and covariance.
     fn defect(&self, t_s: f64) -> Option<FilterError>;
@@ -95,4 +97,20 @@ pub(super) fn defect<'a>(
     // Zero is legal: a law without an acceleration state has no variance there.
     let negative = variances.into_iter().position(|v| v < 0.0);
     negative.map(|i| FilterError::NegativeVariance { t_s, state: i + 1 })
+}
+
+/// Puts the covariance of position and velocity that a law stands for in place of the estimator's own.
+///
+/// * `p`: the estimator's own, D x D, internal units; `since`: as in [`Estimator::report`].
+pub(super) fn stand_in<const D: usize>(p: &mut SMatrix<f64, D, D>, law: &dyn Adaptation, since: Option<&TargetMatrix>) {
+    let mut own = p.fixed_view_mut::<6, 6>(0, 0);
+    match (law.replacement(), since) {
+        (Some(said), None) => own.copy_from(&said.p),
+        (Some(_), Some(f)) => {
+            if let Some(excess) = law.excess(&f.fixed_view::<6, 6>(0, 0).into_owned()) {
+                own += excess;
+            }
+        }
+        (None, _) => (),
+    }
 }

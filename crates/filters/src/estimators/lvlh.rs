@@ -1,7 +1,7 @@
 //! A relative state measured in full in the target's LVLH frame: rho, rho_dot and d, nine states (Pesce, Silvestrini and
 //! Lavagna).
 
-use super::estimator::{Estimator, Gap, Reported, defect};
+use super::estimator::{Estimator, Gap, Reported, defect, stand_in};
 use super::told::Manoeuvres;
 use crate::dynamics::AccelerationModel;
 use crate::dynamics::clohessy_wiltshire::Circular;
@@ -235,7 +235,7 @@ impl Estimator for LvlhState {
         self.core.as_ref().map(of).unwrap_or_default()
     }
 
-    fn report(&self, sample: &Sample, law: &dyn Adaptation) -> Reported {
+    fn report(&self, sample: &Sample, law: &dyn Adaptation, since: Option<&TargetMatrix>) -> Reported {
         let (mut x, mut p) = self
             .core
             .as_ref()
@@ -243,9 +243,7 @@ impl Estimator for LvlhState {
         if let Some(learnt) = law.disturbance() {
             x.fixed_rows_mut::<3>(idx::A_T.start).copy_from(&learnt.d);
         }
-        if let Some(own) = law.replacement() {
-            p.fixed_view_mut::<6, 6>(0, 0).copy_from(&own.p);
-        }
+        stand_in(&mut p, law, since);
         // What Clohessy-Wiltshire leaves out is what the better model has beyond it.
         let beyond = self.motion.get().beyond(&sample.target_orbit, &x);
         let mut d = x.fixed_rows_mut::<3>(idx::A_T.start);

@@ -1,7 +1,7 @@
 //! A target seen from a chaser that knows itself roughly: 18 states, axes N (Mamich and Zanetti).
 
 use super::accelerometer::{Accelerometer, Bias, Blur};
-use super::estimator::{Estimator, Gap, Reported, defect};
+use super::estimator::{Estimator, Gap, Reported, defect, stand_in};
 use super::sights::{self, InLvlh};
 use super::told::{Manoeuvres, Place};
 use crate::beliefs::Beliefs;
@@ -483,7 +483,7 @@ impl Estimator for InertialState {
         self.core.as_ref().map(of).unwrap_or_default()
     }
 
-    fn report(&self, _sample: &Sample, law: &dyn Adaptation) -> Reported {
+    fn report(&self, _sample: &Sample, law: &dyn Adaptation, since: Option<&TargetMatrix>) -> Reported {
         let unit = SVector::<f64, N>::from_fn(|i, _| self.units.of_state(i));
         let Some(core) = &self.core else {
             return Reported {
@@ -497,9 +497,7 @@ impl Estimator for InertialState {
             x.fixed_rows_mut::<3>(idx::A_T.start).copy_from(&learnt.d);
         }
         let mut p = core.p;
-        if let Some(own) = law.replacement() {
-            p.fixed_view_mut::<6, 6>(0, 0).copy_from(&own.p);
-        }
+        stand_in(&mut p, law, since);
         Reported {
             x: x.component_mul(&unit),
             p_target: TargetMatrix::from_fn(|i, j| p[(i, j)] * unit[i] * unit[j]),

@@ -108,10 +108,10 @@ pub trait Adaptation {
         None
     }
 
-    /// By how much the covariance of position and velocity that the law stands for is larger than the estimator's own, before the
-    /// next sample.
+    /// By how much the covariance of position and velocity that the law stands for is larger than the estimator's own, some time
+    /// after the sample last observed.
     ///
-    /// * `f`: transition to it, 6x6.
+    /// * `f`: transition from then, 6x6.
     fn excess(&self, _f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
         None
     }

@@ -109,11 +109,20 @@ pub(super) fn velocity_changes(setup: &Setup<'_>) -> Result<VelocityChanges, Fil
             permitted: format!("at most {LONGEST_WINDOW} s: a hypothesis stands for every 40 s of it"),
         });
     }
+    let decided = setup.tunables.real(DECIDED.name)?;
+    if decided <= 0.0 || decided >= 1.0 {
+        return Err(FilterError::OutOfRange {
+            name: format!("{}.{}", setup.tunables.law, DECIDED.name),
+            value: decided,
+            unit: "",
+            permitted: "above 0 and below 1: at 0 nothing is ever decided, at 1 everything at once".into(),
+        });
+    }
     let parameters = Parameters {
         quiet: setup.tunables.real(QUIET.name)? * setup.off_nominal.sqrt(),
         rate: setup.tunables.real(RATE.name)?,
         window,
-        decided: setup.tunables.real(DECIDED.name)?,
+        decided,
         directions: setup.tunables.boolean(DIRECTIONS.name)?,
         schedule: setup.tunables.boolean(SCHEDULE.name)?,
     };

@@ -199,6 +199,41 @@ fn means_below_the_gate_count_where_no_noise_can_account_for_them() {
     assert!(found.iter().all(|nees| (0.5..1.5).contains(nees)), "{found:?}");
 }
 
+/// Where the accelerometer is the fastest sensor, a bank of one is its member at every epoch, not only at those of the LiDAR.
+#[test]
+fn a_bank_knows_between_the_samples_how_unsure_it_is() {
+    let sensors = "[sensors.lidar]\nperiod_s = 10.0\n[sensors.accelerometer]\noutput = \"mean\"\nperiod_s = 1.0\nbias_sigma_m_s2 = 0.0";
+    let told = low_orbit(sensors, "chaser_q_c_m2_s3 = 1e-12");
+    let mut snc = navigator(&told, "snc", "q", 1e-3);
+    let mut bank = Settings {
+        filter: FILTERS.iter().position(|f| f.name == "mmae").unwrap(),
+        ..Settings::default()
+    };
+    for (name, value) in [("lowest", Value::Real(1e-3)), ("members", Value::Integer(1))] {
+        *bank.tunable_mut("mmae", name).unwrap() = value;
+    }
+    let mut bank = Navigator::new(&told, &bank, 0.0).unwrap();
+    let (mut flight, start) = fly(&told, 3);
+    let mut grown = 0.0_f64;
+    for k in 0..300 {
+        let sample = flight.next();
+        let before = bank.estimate().sigma[0];
+        for nav in [&mut snc, &mut bank] {
+            nav.process(&sample, &start).unwrap();
+        }
+        let ratio = bank
+            .estimate()
+            .sigma
+            .fixed_rows::<6>(0)
+            .component_div(&snc.estimate().sigma.fixed_rows::<6>(0));
+        if k > 30 {
+            assert!(ratio.iter().all(|ratio| (ratio - 1.0).abs() < 1e-3), "{k}: {ratio}");
+            grown = grown.max(bank.estimate().sigma[0] / before);
+        }
+    }
+    assert!(grown > 1.02, "{grown}: there is something to compare");
+}
+
 /// Where the accelerometer is the slowest sensor, its means are held and made good when they come.
 #[test]
 fn a_slow_accelerometer_loses_no_velocity() {

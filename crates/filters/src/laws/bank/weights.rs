@@ -47,11 +47,11 @@ impl Weights {
         }
     }
 
-    /// Moves them over a step: mu <- [(1 - dt / memory) mu + dt / memory prior] * likelihood.
+    /// Moves them over a step: mu <- [mu + (1 - exp(-dt / memory)) (prior - mu)] * likelihood.
     ///
     /// * `log_likelihoods`: of the sample, one for each member; all equal when nothing was measured.
     pub(in crate::laws) fn update(&mut self, dt: f64, log_likelihoods: &[f64]) {
-        let back = (dt / self.memory).min(1.0);
+        let back = -(-dt / self.memory).exp_m1();
         for (now, prior) in self.now.iter_mut().zip(&self.prior) {
             *now += (prior - *now) * back;
         }
@@ -90,6 +90,13 @@ mod tests {
         let mut weights = Weights::new(&[3.0, 1.0], 10.0);
         weights.update(0.0, &[0.0, 100.0]);
         assert!(weights.get()[0] < 1e-40);
+        (0..10).for_each(|_| weights.update(1.0, &[0.0, 0.0]));
+        assert!((weights.get()[0] - 0.75 * (1.0 - (-1.0_f64).exp())).abs() < 1e-14);
+        // In ten steps or in one.
+        let mut at_once = Weights::new(&[3.0, 1.0], 10.0);
+        at_once.update(0.0, &[0.0, 100.0]);
+        at_once.update(10.0, &[0.0, 0.0]);
+        assert!((weights.get()[0] - at_once.get()[0]).abs() < 1e-14);
         (0..1000).for_each(|_| weights.update(1.0, &[0.0, 0.0]));
         assert!((weights.get()[0] - 0.75).abs() < 1e-12);
     }

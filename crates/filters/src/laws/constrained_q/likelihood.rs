@@ -95,6 +95,8 @@ struct Evidence {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Fading {
     memory: f64,
+    /// Time that it covers, memory (1 - exp(-t / memory)).
+    covered: f64,
     sum: PerMember,
 }
 
@@ -102,12 +104,14 @@ impl Fading {
     fn new(memory: f64) -> Self {
         Self {
             memory,
+            covered: 0.0,
             sum: [0.0; MEMBERS],
         }
     }
 
     fn gather(&mut self, dt: f64, new: &[f64]) {
         let keep = (-dt / self.memory).exp();
+        self.covered = self.covered * keep + self.memory * (1.0 - keep);
         for (sum, new) in self.sum.iter_mut().zip(new) {
             *sum = *sum * keep + new;
         }
@@ -140,7 +144,7 @@ impl Evidence {
         let (of_long, of_short) = (self.long.best(), self.short.best());
         let short = self.short.says(of_short, of_long);
         let long = self.long.says(of_long, of_short);
-        let alert = short > LEAST && short / self.short.memory > TIMES * long / self.long.memory;
+        let alert = short > LEAST && short / self.short.covered > TIMES * long / self.long.covered;
         self.alerts += i32::from(alert && !self.alert);
         self.alert = alert;
     }
@@ -164,6 +168,15 @@ impl ByLikelihood {
             unit: ROOT_DENSITY,
             permitted,
         };
+        let (long, short) = (t.real(LONG_MEMORY.name)?, t.real(SHORT_MEMORY.name)?);
+        if short > long {
+            return Err(FilterError::OutOfRange {
+                name: format!("{}.{}", t.law, SHORT_MEMORY.name),
+                value: short,
+                unit: "s",
+                permitted: format!("at most {}.{} = {long} s", t.law, LONG_MEMORY.name),
+            });
+        }
         if q_min >= q_max {
             let permitted = format!("less than {}.{} = {q_max}", t.law, Q_MAX.name);
             return Err(refused(&Q_MIN, q_min, permitted));
@@ -179,12 +192,11 @@ impl ByLikelihood {
         // The factor of a study of mistuning is on the bounds as it is on the members.
         let unit = setup.units.root_acceleration_density();
         let log = |q: f64| ((q / unit).powi(2) * setup.off_nominal).ln();
-        let memory = |tunable: &Tunable| Ok::<f64, FilterError>(t.real(tunable.name)? / setup.units.time);
         let white = Decades::new(&roots, setup);
         let mut law = Self {
             centre: Centre::new(setup.r, 0.0),
             white,
-            evidence: Evidence::new(memory(&LONG_MEMORY)?, memory(&SHORT_MEMORY)?),
+            evidence: Evidence::new(long / setup.units.time, short / setup.units.time),
             bounds: Bounds {
                 of: roots.map(log),
                 low: log(q_min),
@@ -218,11 +230,9 @@ impl Bank for ByLikelihood {
     fn take(&mut self, shared: &Shared) {
         let mut likelihoods = Vec::with_capacity(MEMBERS);
         self.white.take(shared, &mut likelihoods);
-        // Where nothing was measured nothing is learnt, and nothing forgotten.
-        if shared.seen.iter().next().is_some() {
-            self.evidence.gather(shared.dt, &likelihoods);
-            self.weigh();
-        }
+        // Where nothing was measured all likelihoods are alike, and time passes.
+        self.evidence.gather(shared.dt, &likelihoods);
+        self.weigh();
     }
 
     fn mixture(&self) -> Mixture {
@@ -275,7 +285,8 @@ mod tests {
             .map(|m| {
                 let (short, long) = (said(30.0, m), -said(600.0, m));
                 // From where the long one is for member 8 too, both are of one mind.
-                long > 0.0 && short > 4.0 && short / 30.0 > 3.0 * long / 600.0
+                let covered = |memory: f64| memory * (1.0 - (-f64::from(before + m) / memory).exp());
+                long > 0.0 && short > 4.0 && short / covered(30.0) > 3.0 * long / covered(600.0)
             })
             .collect();
         let mut evidence = Evidence::new(600.0, 30.0);
@@ -298,6 +309,7 @@ mod tests {
     fn the_short_memory_needs_odds_of_fifty() {
         for (odds, alert) in [(3.9, false), (4.1, true)] {
             let mut evidence = Evidence::new(600.0, 30.0);
+            (evidence.long.covered, evidence.short.covered) = (600.0, 30.0);
             evidence.long.sum[3] = odds + 0.05;
             evidence.gather(
                 0.0,
@@ -305,6 +317,24 @@ mod tests {
             );
             assert_eq!(evidence.alert, alert);
         }
+    }
+
+    /// In the first minute both sums are nearly the same data: evidence that is no more frequent than before is no news.
+    #[test]
+    fn what_both_memories_have_gathered_alike_is_no_alert() {
+        let mut evidence = Evidence::new(600.0, 30.0);
+        // For member 0 at first, then for member 8, at less than three times the rate that the whole minute speaks for member 0.
+        for m in 0..60 {
+            let new = std::array::from_fn::<f64, MEMBERS, _>(|k| match (k, m) {
+                (0, ..40) => 1.0,
+                (8, 40..) => 1.1,
+                _ => 0.0,
+            });
+            evidence.gather(1.0, &new);
+            assert!(!evidence.alert, "{m} s");
+        }
+        assert!(evidence.short.best() == 8 && evidence.short.says(8, 0) > LEAST);
+        assert!(evidence.short.says(8, 0) / 30.0 > TIMES * evidence.long.says(0, 8) / 600.0);
     }
 
     #[test]

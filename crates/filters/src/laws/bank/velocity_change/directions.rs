@@ -272,8 +272,8 @@ mod tests {
         assert_eq!(directions.sets[1].lobes.len(), 2);
     }
 
-    /// Three that come again and again, and twenty strays: each stray takes from the one that came least, and two in a row are a
-    /// direction. What has come often stays.
+    /// Three that come again and again, and strays from one place: each takes from the one that came least. What has come often
+    /// outlives two of them, and gives way when they have come as often as it.
     #[test]
     fn what_lasts_outlives_strays() {
         let fixed = [Vector3::x(), Vector3::y(), Vector3::z()];

@@ -7,12 +7,12 @@ use super::axes::Axes;
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// Weights below this share of the largest count for nothing.
+/// Weights below this, and shares below this of what has been summed so far, count for nothing.
 pub(super) const NEGLIGIBLE: f64 = 1e-9;
 /// Number of sizes.
 pub(super) const SIZES: usize = 5;
 
-/// What is expected of a change before the data: a rate, and D ~ N(0, S).
+/// What is expected of a change before the data: a rate, and D ~ N(0, P_D).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Prior {
     /// Place of its size.
@@ -21,14 +21,14 @@ pub(super) struct Prior {
     pub anywhere: bool,
     /// Its rate, 1/s.
     pub rate: f64,
-    /// S^-1, 3x3, internal units.
+    /// P_D^-1, 3x3, internal units.
     precision: Matrix3<f64>,
-    /// det S.
+    /// det P_D.
     det: f64,
 }
 
 impl Prior {
-    /// A change of a size in any direction, S = c^2 I.
+    /// A change of a size in any direction, P_D = c^2 I.
     pub(super) fn anywhere(size: usize, c: f64, rate: f64) -> Self {
         Self {
             size,
@@ -39,7 +39,7 @@ impl Prior {
         }
     }
 
-    /// A change along a direction that is known to within `spread`, S = c^2 (u u' + spread^2 (I - u u')).
+    /// A change along a direction that is known to within `spread`, P_D = c^2 (u u' + spread^2 (I - u u')).
     pub(super) fn along(size: usize, c: f64, rate: f64, along: &Vector3<f64>, spread: f64) -> Self {
         let axis = along * along.transpose();
         let across = (Matrix3::identity() - axis) / (spread * spread);
@@ -58,7 +58,7 @@ impl Prior {
 pub(super) struct Posterior {
     /// d' V d / 2.
     pub exponent: f64,
-    /// det(I + S C): the likelihood against "no change" is exp(d' V d / 2) over the root of it.
+    /// det(I + P_D C): the likelihood against "no change" is exp(d' V d / 2) over the root of it.
     pub det: f64,
     /// V d.
     pub mean: Vector3<f64>,

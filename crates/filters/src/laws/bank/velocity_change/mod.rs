@@ -35,7 +35,7 @@ const PRIOR_TIME: f64 = 600.0;
 /// Ages at which hypotheses are thinned, and the distance that they then keep, s.
 const THINNED: [(f64, f64); 3] = [(0.0, 5.0), (30.0, 10.0), (80.0, 40.0)];
 /// Nothing is learnt of when and where to from a change less probable than this.
-const CERTAIN: f64 = 0.2;
+const LEAST_LEARNT: f64 = 0.2;
 /// A time is no time of a change where it is less likely than the likeliest by this factor.
 const NOT_MUCH_LESS: f64 = 0.1;
 /// Rounding of times, s.
@@ -81,8 +81,8 @@ pub(in crate::laws) struct VelocityChanges {
     schedule: Option<Schedule>,
     /// The last that was decided upon, while it tells where it pointed.
     watched: Option<Watched>,
-    /// Time since the first sample, s.
-    elapsed: f64,
+    /// Time since something was measured first, s; `None` before.
+    elapsed: Option<f64>,
     /// Time since the last was opened, s.
     since: f64,
     decisions: i32,
@@ -121,7 +121,7 @@ impl VelocityChanges {
             directions: parameters.directions.then(Directions::default),
             schedule: parameters.schedule.then(Schedule::default),
             watched: None,
-            elapsed: 0.0,
+            elapsed: None,
             since: f64::INFINITY,
             decisions: 0,
             weighed: Weighed {
@@ -146,7 +146,10 @@ impl VelocityChanges {
     /// * returns: its log-likelihood under the whole mixture, as [`Member::update`] has it.
     pub(in crate::laws) fn take(&mut self, shared: &Shared) -> f64 {
         let dt = shared.dt / self.second;
-        self.elapsed += dt;
+        self.elapsed = match self.elapsed {
+            Some(elapsed) => Some(elapsed + dt),
+            None => shared.seen.iter().next().map(|_| 0.0),
+        };
         self.since += dt;
         self.watch(shared, dt);
         hypothesis::predict(&mut self.quiet, &mut self.open, shared, self.density, dt);
@@ -273,16 +276,19 @@ impl VelocityChanges {
 
     /// Learns when a change came of which these hypotheses speak.
     fn remember_time(&mut self, hypotheses: &[Hypothesis], parts: &[Part]) {
-        let Some(schedule) = &mut self.schedule else { return };
+        let (Some(schedule), Some(now)) = (&mut self.schedule, self.elapsed) else {
+            return;
+        };
         let all: f64 = parts.iter().map(Part::weight).sum();
         let (mut age, mut square) = (0.0, 0.0);
         for (hypothesis, part) in hypotheses.iter().zip(parts) {
             let share = part.weight() / all;
-            age += share * hypothesis.age;
-            square += share * (hypothesis.age.powi(2) + hypothesis.span.powi(2) / 12.0);
+            let middle = hypothesis.age - hypothesis.span / 2.0;
+            age += share * middle;
+            square += share * (middle * middle + hypothesis.span.powi(2) / 12.0);
         }
-        if all > CERTAIN {
-            schedule.learn(self.elapsed - age, (square - age * age).max(0.0), all.min(1.0));
+        if all > LEAST_LEARNT {
+            schedule.learn(now - age, (square - age * age).max(0.0), all.min(1.0));
         }
     }
 
@@ -294,8 +300,9 @@ impl VelocityChanges {
 
     /// Drops what stands closer to an older one than its age allows, and folds in what is too old.
     fn thin(&mut self) {
+        // One that stands for a time within the window stays: the newest in any case, however long ago its sample.
         while let Some(oldest) = self.open.first()
-            && oldest.age > self.window
+            && oldest.age - oldest.span > self.window
         {
             self.fold_oldest();
         }
@@ -317,7 +324,7 @@ impl VelocityChanges {
         }
         let part = self.weighed.parts.remove(0);
         let weight = part.weight();
-        if weight > CERTAIN {
+        if weight > LEAST_LEARNT {
             self.remember_time(std::slice::from_ref(&oldest), std::slice::from_ref(&part));
             if let Some(directions) = &mut self.directions {
                 directions.learn(&found(&oldest, &part.weights));
@@ -340,10 +347,13 @@ impl VelocityChanges {
     /// * `relative`: position and velocity of the estimate, 6.
     fn open_next(&mut self, relative: &Vector6<f64>) {
         // What the first estimate leaves would be taken for changes, and their rates be learnt from it.
-        if self.elapsed < SETTLING || self.since < spacing(0.0) - TICK {
+        let Some(elapsed) = self.elapsed.filter(|elapsed| *elapsed >= SETTLING) else {
+            return;
+        };
+        if self.since < spacing(0.0) - TICK {
             return;
         }
-        let per_found = 1.0 / (PRIOR_TIME + self.elapsed);
+        let per_found = 1.0 / (PRIOR_TIME + elapsed);
         let rates: [f64; SIZES] = std::array::from_fn(|i| (self.prior[i] + self.found[i]) * per_found);
         let axes = Axes::of(relative, self.speed);
         let nothing_learnt = Directions::default();
@@ -351,7 +361,7 @@ impl VelocityChanges {
         let priors = directions.priors(&axes, &self.sizes, &rates, per_found);
         let schedule = self.schedule.as_ref();
         let expected = schedule.map_or(0.0, |schedule| {
-            schedule.expected(self.elapsed, spacing(0.0), self.window)
+            schedule.expected(elapsed + spacing(0.0) / 2.0, spacing(0.0), self.window)
         });
         let due = expected / rates.iter().sum::<f64>();
         self.open.push(Hypothesis::new(due, priors, axes));
@@ -391,7 +401,7 @@ mod tests {
             },
             &Units::of(&units),
         );
-        changes.elapsed = SETTLING;
+        changes.elapsed = Some(SETTLING);
         for i in 0..6 {
             changes.quiet.p[(i, i)] = if i < 3 { 1.0 } else { 1e-4 };
         }
@@ -582,11 +592,44 @@ mod tests {
                 assert!((older.span - apart).abs() < TICK, "{} {ages:?}", older.span);
             }
             let newest = changes.open.last().unwrap();
-            assert!((newest.span + period - newest.age).abs() < period + TICK);
+            assert!((newest.span - newest.age).abs() < TICK, "{} {ages:?}", newest.span);
             assert!(
-                ages[0] <= changes.window && ages[0] > changes.window - 40.0 - 2.0 * period,
+                ages[0] - changes.open[0].span <= changes.window && ages[0] > changes.window - 40.0 - 2.0 * period,
                 "{ages:?}"
             );
         }
+    }
+
+    /// Ten minutes without a sample: what may have happened in them is asked when the next one comes.
+    #[test]
+    fn a_gap_longer_than_the_window_is_no_proof_of_quiet() {
+        let g = &mut stream(14, 0, Source::Lidar);
+        let mut changes = changes();
+        for _ in 0..60 {
+            changes.take(&step(g));
+        }
+        let newest = changes.open.last().unwrap().age;
+        changes.take(&step_of(g, 600.0));
+        let oldest = &changes.open[0];
+        assert!((oldest.age - newest - 600.0).abs() < TICK && (oldest.span - oldest.age).abs() < TICK);
+        assert!(oldest.ln_weight() > -20.0 && changes.weighed.parts[0].weight() > 1e-9);
+    }
+
+    /// A minute in which nothing is seen of the target is no time in which the first estimate settles.
+    #[test]
+    fn no_change_is_looked_for_before_the_first_estimate_has_settled() {
+        let g = &mut stream(15, 0, Source::Lidar);
+        let mut changes = changes();
+        changes.elapsed = None;
+        let nothing = || Shared::of(1.0, step(&mut stream(15, 1, Source::Lidar)).f, Seen::of(&[]));
+        for _ in 0..60 {
+            changes.take(&nothing());
+        }
+        for _ in 0..30 {
+            assert!(changes.open.is_empty());
+            changes.take(&step(g));
+        }
+        changes.take(&step(g));
+        assert_eq!(changes.open.len(), 1);
     }
 }
