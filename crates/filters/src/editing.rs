@@ -384,12 +384,29 @@ mod tests {
         mission.mission().unwrap().navigation()
     }
 
+    /// A sample of a LiDAR that sees the range `z` straight ahead.
+    fn ranged(time_s: f64, z: f64) -> Sample {
+        let mut sample = Sample::blank(1, time_s);
+        sample[Sensor::Lidar] = Reading::of(&[z, 0.0, 0.0]);
+        sample
+    }
+
+    /// Such a sample that is used: it is off by this, of which the update takes a tenth.
+    fn use_one(editing: &mut Editing, time_s: f64, off: f64) {
+        let layout = Layout::new(&[Sensor::Lidar]);
+        editing.remember(
+            &ranged(time_s, 1000.0),
+            &step(off),
+            &(Target::x() * (0.1 * off)),
+            layout,
+        );
+    }
+
     /// * `z`: the range that is measured.
     /// * `v`: by how much it is off.
     fn finds_at(editing: &mut Editing, z: f64, v: f64, excess: Option<&Matrix6<f64>>) -> bool {
         let layout = Layout::new(&[Sensor::Lidar]);
-        let mut sample = Sample::blank(1, 1.0);
-        sample[Sensor::Lidar] = Reading::of(&[z, 0.0, 0.0]);
+        let sample = ranged(1.0, z);
         let (step, r) = (step(v), RowVector::repeat(1.0));
         let found = editing.find(&sample, &step, 0.5 * v * v, || excess.copied(), layout, &r);
         if found.is_empty() {
@@ -436,13 +453,10 @@ mod tests {
     /// Samples of a LiDAR that were used, the newest last, each by the time since then and how far it was off; the update takes a
     /// tenth.
     fn after(samples: &[(f64, f64)]) -> Editing {
-        let layout = Layout::new(&[Sensor::Lidar]);
         let mut editing = settled(Some(0.01));
         editing.watched[LIDAR].used = [None; BEFORE];
         for (since, off) in samples {
-            let mut sample = Sample::blank(1, 1.0 - since);
-            sample[Sensor::Lidar] = Reading::of(&[1000.0, 0.0, 0.0]);
-            editing.remember(&sample, &step(*off), &(Target::x() * (0.1 * off)), layout);
+            use_one(&mut editing, 1.0 - since, *off);
         }
         editing
     }
@@ -507,10 +521,7 @@ mod tests {
         for (suspected, doubted) in [(0, true), (1, false)] {
             let mut editing = after(&[(3.0, 0.0), (2.0, 0.0)]);
             editing.watched[LIDAR].suspected = suspected;
-            let mut sample = Sample::blank(1, 0.0);
-            sample[Sensor::Lidar] = Reading::of(&[1000.0, 0.0, 0.0]);
-            let layout = Layout::new(&[Sensor::Lidar]);
-            editing.remember(&sample, &step(30.0), &(Target::x() * 3.0), layout);
+            use_one(&mut editing, 0.0, 30.0);
             assert_eq!(finds(&mut editing, 31.0, None), doubted);
         }
     }
@@ -531,8 +542,7 @@ mod tests {
         let step = step(20.0);
         let layout = Layout::new(&[Sensor::Lidar]);
         let unsure = Matrix6::from_diagonal_element(400.0);
-        let mut sample = Sample::blank(1, 1.0);
-        sample[Sensor::Lidar] = Reading::of(&[1000.0, 0.0, 0.0]);
+        let sample = ranged(1.0, 1000.0);
         let found = |excess: Option<&Matrix6<f64>>| {
             let mut editing = settled(Some(0.01));
             editing.find(

@@ -304,8 +304,10 @@ impl Navigator {
         let mut seen = estimator.update(&sample, &mut step)?;
         if let Some(all) = seen {
             // Asked for only where there is something to doubt.
-            let since = self.between.as_ref().map_or(f, |before| f * before.f);
-            let excess = || self.law.excess(&since.fixed_view::<6, 6>(0, 0).into_owned());
+            let excess = || {
+                let since = self.between.as_ref().map_or(f, |before| f * before.f);
+                self.law.excess(&since.fixed_view::<6, 6>(0, 0).into_owned())
+            };
             let outliers = self.editing.find(&sample, &step, all.nis, excess, self.layout, &self.r);
             if !outliers.is_empty() {
                 outliers

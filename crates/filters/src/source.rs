@@ -130,10 +130,17 @@ mod tests {
         arrival
     }
 
+    /// One after the other: ordinal, epoch, and what the sample is.
+    fn arrive(source: &mut Source, samples: &[(i32, f64, Arrival)]) {
+        for (count, time, arrival) in samples {
+            assert_eq!(arrives(source, *count, *time), *arrival, "{count} at {time} s");
+        }
+    }
+
     #[test]
     fn ordinals_and_epochs_tell_what_a_sample_is() {
         let mut source = source("leo_venting");
-        for (count, time, arrival) in [
+        let samples = [
             (0, 0.0, Known),
             (1, 1.0, New),
             (1, 1.0, Known),
@@ -149,16 +156,15 @@ mod tests {
             (1, 4.0, New),
             (1, 4.0, Known),
             (2, 5.0, New),
-        ] {
-            assert_eq!(arrives(&mut source, count, time), arrival, "{count} at {time} s");
-        }
+        ];
+        arrive(&mut source, &samples);
         assert_eq!((source.duplicates(), source.restarts()), (2, 1));
     }
 
     #[test]
     fn the_last_ordinal_is_the_last_sample_whatever_its_time() {
         let mut source = source("leo_venting");
-        for (count, time, arrival) in [
+        let samples = [
             (1, 1.0, New),
             // A source that begins again with the ordinal that was last cannot be told from times that move.
             (1, 1.5, Known),
@@ -168,9 +174,8 @@ mod tests {
             (2, 11.0, New),
             (3, 12.0, New),
             (2, 20.0, New),
-        ] {
-            assert_eq!(arrives(&mut source, count, time), arrival, "{count} at {time} s");
-        }
+        ];
+        arrive(&mut source, &samples);
         assert_eq!((source.duplicates(), source.restarts()), (0, 1));
     }
 

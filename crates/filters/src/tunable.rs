@@ -233,15 +233,27 @@ impl Tunables<'_> {
                 if (*min..=*max).contains(&v) {
                     Ok(v)
                 } else {
-                    Err(FilterError::OutOfRange {
-                        name: full,
-                        value: f64::from(v),
-                        unit: "",
-                        permitted: format!("{min} to {max}"),
-                    })
+                    Err(self.refused(name, f64::from(v), format!("{min} to {max}")))
                 }
             }
             _ => Err(self.mistyped(full)),
+        }
+    }
+
+    /// What is said of a value that a tunable must not have, for its own sake or beside that of another.
+    ///
+    /// * `permitted`: what it may be.
+    pub(crate) fn refused(&self, name: &str, value: f64, permitted: String) -> FilterError {
+        let declared = self.declared.iter().find(|tunable| tunable.name == name);
+        let unit = match declared.map(|tunable| &tunable.kind) {
+            Some(Kind::Real { unit, .. }) => unit,
+            _ => "",
+        };
+        FilterError::OutOfRange {
+            name: format!("{}.{name}", self.law),
+            value,
+            unit,
+            permitted,
         }
     }
 

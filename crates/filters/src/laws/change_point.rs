@@ -100,31 +100,24 @@ pub(super) const SCHEDULE: Tunable = Tunable {
 /// # Errors
 /// When a tunable is out of range.
 pub(super) fn velocity_changes(setup: &Setup<'_>) -> Result<VelocityChanges, FilterError> {
-    let window = setup.tunables.real(WINDOW.name)?;
+    let t = &setup.tunables;
+    let window = t.real(WINDOW.name)?;
     if window > LONGEST_WINDOW {
-        return Err(FilterError::OutOfRange {
-            name: format!("{}.{}", setup.tunables.law, WINDOW.name),
-            value: window,
-            unit: "s",
-            permitted: format!("at most {LONGEST_WINDOW} s: a hypothesis stands for every 40 s of it"),
-        });
+        let permitted = format!("at most {LONGEST_WINDOW} s: a hypothesis stands for every 40 s of it");
+        return Err(t.refused(WINDOW.name, window, permitted));
     }
-    let decided = setup.tunables.real(DECIDED.name)?;
+    let decided = t.real(DECIDED.name)?;
     if decided <= 0.0 || decided >= 1.0 {
-        return Err(FilterError::OutOfRange {
-            name: format!("{}.{}", setup.tunables.law, DECIDED.name),
-            value: decided,
-            unit: "",
-            permitted: "above 0 and below 1: at 0 nothing is ever decided, at 1 everything at once".into(),
-        });
+        let permitted = "above 0 and below 1: at 0 nothing is ever decided, at 1 everything at once";
+        return Err(t.refused(DECIDED.name, decided, permitted.into()));
     }
     let parameters = Parameters {
-        quiet: setup.tunables.real(QUIET.name)? * setup.off_nominal.sqrt(),
-        rate: setup.tunables.real(RATE.name)?,
+        quiet: t.real(QUIET.name)? * setup.off_nominal.sqrt(),
+        rate: t.real(RATE.name)?,
         window,
         decided,
-        directions: setup.tunables.boolean(DIRECTIONS.name)?,
-        schedule: setup.tunables.boolean(SCHEDULE.name)?,
+        directions: t.boolean(DIRECTIONS.name)?,
+        schedule: t.boolean(SCHEDULE.name)?,
     };
     Ok(VelocityChanges::new(&parameters, &setup.units))
 }

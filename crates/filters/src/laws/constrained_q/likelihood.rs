@@ -162,32 +162,22 @@ impl ByLikelihood {
         let t = &setup.tunables;
         let roots: PerMember = std::array::from_fn(|k| QUIETEST * 10_f64.powf(0.5 * k as f64));
         let (q_min, q_max) = (t.real(Q_MIN.name)?, t.real(Q_MAX.name)?);
-        let refused = |tunable: &Tunable, value: f64, permitted: String| FilterError::OutOfRange {
-            name: format!("{}.{}", t.law, tunable.name),
-            value,
-            unit: ROOT_DENSITY,
-            permitted,
-        };
         let (long, short) = (t.real(LONG_MEMORY.name)?, t.real(SHORT_MEMORY.name)?);
         if short > long {
-            return Err(FilterError::OutOfRange {
-                name: format!("{}.{}", t.law, SHORT_MEMORY.name),
-                value: short,
-                unit: "s",
-                permitted: format!("at most {}.{} = {long} s", t.law, LONG_MEMORY.name),
-            });
+            let permitted = format!("at most {}.{} = {long} s", t.law, LONG_MEMORY.name);
+            return Err(t.refused(SHORT_MEMORY.name, short, permitted));
         }
         if q_min >= q_max {
             let permitted = format!("less than {}.{} = {q_max}", t.law, Q_MAX.name);
-            return Err(refused(&Q_MIN, q_min, permitted));
+            return Err(t.refused(Q_MIN.name, q_min, permitted));
         }
         if q_min >= roots[MEMBERS - 1] {
             let permitted = format!("less than {:.0e}, the loudest member", roots[MEMBERS - 1]);
-            return Err(refused(&Q_MIN, q_min, permitted));
+            return Err(t.refused(Q_MIN.name, q_min, permitted));
         }
         if q_max <= roots[0] {
             let permitted = format!("greater than {:.0e}, the quietest member", roots[0]);
-            return Err(refused(&Q_MAX, q_max, permitted));
+            return Err(t.refused(Q_MAX.name, q_max, permitted));
         }
         // The factor of a study of mistuning is on the bounds as it is on the members.
         let unit = setup.units.root_acceleration_density();

@@ -7,9 +7,9 @@
 //! minimise 1/2 q^T H q - g^T q over s_min^2 I <= Q <= s_max^2 I
 //!
 //! is solved by clarabel, q being the entries of Q: of a diagonal Q in [`diagonal`], of any symmetric one, in the axes of
-//! the filter, in [`full`]. When the solver does not solve, the last Q stays and the case is counted. What is almost solved is taken: cuts that nearly
-//! coincide let programmes end so now and then, their answers stay within what the tests of [`full`] allow, and a regression on a few
-//! innovations is known by far less than that.
+//! the filter, in [`full`]. When the solver does not solve, the last Q stays and the case is counted. What is almost solved is taken:
+//! cuts that nearly coincide let programmes end so now and then, their answers stay within what the tests of [`full`] allow, and a
+//! regression on a few innovations is known by far less than that.
 
 use super::{diagonal, full};
 use crate::error::FilterError;
@@ -93,12 +93,8 @@ impl ByRegression {
         let density = |name: &str| Ok::<f64, FilterError>((t.real(name)? / setup.units.root_jerk_density()).powi(2));
         let (lower, upper) = (density("s_min")?, density("s_max")?);
         if lower >= upper {
-            return Err(FilterError::OutOfRange {
-                name: "constrained_q.s_min".into(),
-                value: t.real("s_min")?,
-                unit: ROOT_DENSITY,
-                permitted: format!("less than constrained_q.s_max = {}", t.real("s_max")?),
-            });
+            let permitted = format!("less than {}.s_max = {}", t.law, t.real("s_max")?);
+            return Err(t.refused("s_min", t.real("s_min")?, permitted));
         }
         let (prior, spread) = (density("s_prior")? * setup.off_nominal, density("s_spread")?);
         let full = t.choice("shape")? == 1;

@@ -49,7 +49,7 @@ struct Set {
     ln_evidence: f64,
 }
 
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Lobe {
     /// Unit vectors by their precision about the middle, 1/rad^2, summed.
     resultant: Vector3<f64>,
@@ -115,25 +115,18 @@ impl Set {
         shares.iter_mut().for_each(|share| *share /= sum);
         if fresh / sum > 0.5 {
             if self.lobes.len() < MOST || self.give_way(weight) {
-                self.lobes.push(Lobe {
-                    resultant: along * (weight / (variance + SCATTER * SCATTER)),
-                    found: *weights,
-                });
+                let mut fresh = Lobe::default();
+                fresh.take(along, variance, 1.0, weights);
+                self.lobes.push(fresh);
             }
             return;
         }
         let known: f64 = shares.iter().sum();
         for (lobe, share) in self.lobes.iter_mut().zip(&shares) {
-            let share = share / known;
-            lobe.resultant += along * (weight * share / (variance + SCATTER * SCATTER));
-            for (found, weight) in lobe.found.iter_mut().zip(weights) {
-                *found += share * weight;
-            }
+            lobe.take(along, variance, share / known, weights);
         }
     }
-}
 
-impl Set {
     /// The lobe that was found least often loses this weight to a direction that is in none; what lasts outlives strays.
     ///
     /// * returns: whether nothing was left of it, and there is place for another.
@@ -154,6 +147,15 @@ impl Set {
 }
 
 impl Lobe {
+    /// Takes a share of a change in; as [`Set::learn`].
+    fn take(&mut self, along: &Vector3<f64>, variance: f64, share: f64, weights: &[f64; SIZES]) {
+        let weight: f64 = weights.iter().sum();
+        self.resultant += along * (weight * share / (variance + SCATTER * SCATTER));
+        for (found, weight) in self.found.iter_mut().zip(weights) {
+            *found += share * weight;
+        }
+    }
+
     fn scale(&mut self, by: f64) {
         self.resultant *= by;
         self.found.iter_mut().for_each(|found| *found *= by);

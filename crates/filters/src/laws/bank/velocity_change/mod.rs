@@ -432,6 +432,15 @@ mod tests {
         Shared::of(dt, f, Seen::of(&rows))
     }
 
+    /// After so many samples of a second.
+    fn after(g: &mut Generator, samples: usize) -> VelocityChanges {
+        let mut changes = changes();
+        for _ in 0..samples {
+            changes.take(&step(g));
+        }
+        changes
+    }
+
     /// A hypothesis against a filter that is really run with it: at t_j its velocity becomes unsure by S, and from there on mean,
     /// covariance and likelihood of every sample are its own.
     #[test]
@@ -481,10 +490,7 @@ mod tests {
     #[test]
     fn a_change_is_watched_as_if_nothing_had_been_decided() {
         let g = &mut stream(7, 0, Source::Lidar);
-        let mut changes = changes();
-        (0..12).for_each(|_| {
-            changes.take(&step(g));
-        });
+        let mut changes = after(g, 12);
         let mut open = changes.clone();
         changes.decide();
         let age = changes.watched.as_ref().unwrap().hypothesis.age;
@@ -515,10 +521,7 @@ mod tests {
     #[test]
     fn a_change_is_not_learnt_from_what_the_next_one_did() {
         let g = &mut stream(8, 0, Source::Lidar);
-        let mut changes = changes();
-        (0..12).for_each(|_| {
-            changes.take(&step(g));
-        });
+        let mut changes = after(g, 12);
         changes.decide();
         let mut early = None;
         for k in 1..=45 {
@@ -604,10 +607,7 @@ mod tests {
     #[test]
     fn a_gap_longer_than_the_window_is_no_proof_of_quiet() {
         let g = &mut stream(14, 0, Source::Lidar);
-        let mut changes = changes();
-        for _ in 0..60 {
-            changes.take(&step(g));
-        }
+        let mut changes = after(g, 60);
         let newest = changes.open.last().unwrap().age;
         changes.take(&step_of(g, 600.0));
         let oldest = &changes.open[0];
