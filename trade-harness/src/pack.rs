@@ -135,11 +135,12 @@ fn resources(mission: Option<&Path>) -> Result<(Option<World>, Files), HarnessEr
     Ok((Some(world), files))
 }
 
-/// A model description with the identifier that the build gave its library, and with a mission inside, the identifier, the
-/// length of a run and the step that belong to it.
+/// A model description with the identifier that follows from its text and the one that the build gave its library, so that a library
+/// refuses a description of other variables than its own, and with a mission inside, the identifier, the length of a run and the step
+/// that belong to it.
 fn described(xml: Vec<u8>, guid: &str, mission: Option<(&World, &Vec<u8>)>) -> Vec<u8> {
+    let own = guid_with(&format!("{{{guid}}}"), &xml);
     let text = String::from_utf8_lossy(&xml).into_owned();
-    let own = format!("{{{guid}}}");
     let with = |text: String, name: &str, value: String| {
         let old = format!("{name}=\"{}\"", attribute(&text, name));
         text.replacen(&old, &format!("{name}=\"{value}\""), 1)
@@ -163,7 +164,7 @@ fn attribute<'a>(xml: &'a str, name: &str) -> &'a str {
 struct Built {
     /// Shared library of each identifier.
     libraries: BTreeMap<String, PathBuf>,
-    /// GUID of each crate, without braces.
+    /// GUID of each crate's build, without braces.
     guids: BTreeMap<&'static str, String>,
 }
 
@@ -413,6 +414,23 @@ mod tests {
             .read_to_string(&mut text)
             .unwrap();
         assert_eq!(text, "<x/>");
+    }
+
+    #[test]
+    fn another_text_of_the_description_or_another_build_makes_another_guid() {
+        let one = "7f1f3d1c-0d7e-5f6a-9b1e-1c2d3e4f5a6b";
+        let other = one.replace('7', "8");
+        let guid = |text: &str, build: &str| {
+            let xml = format!("<m guid=\"{{made-by-the-build}}\"><v name=\"{text}\"/></m>");
+            let packed = String::from_utf8(described(xml.clone().into_bytes(), build, None)).unwrap();
+            let guid = attribute(&packed, "guid").to_owned();
+            assert_eq!(packed, xml.replace("{made-by-the-build}", &guid));
+            guid
+        };
+        let first = guid("x", one);
+        assert_eq!(first, guid("x", one));
+        assert_ne!(first, guid("y", one));
+        assert_ne!(first, guid("x", &other));
     }
 
     #[test]

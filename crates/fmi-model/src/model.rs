@@ -79,7 +79,8 @@ pub struct ModelInfo {
     pub description: &'static str,
     /// Version of the model, normally `env!("CARGO_PKG_VERSION")`; it is part of what ties a library to its description.
     pub version: &'static str,
-    /// GUID made by the build from everything that the library is built from; `None` takes one from the description.
+    /// GUID made by the build from everything that the library is built from; that of the FMU follows from it and the description,
+    /// or with `None` from the description alone.
     pub guid: Option<Uuid>,
     /// Who wrote it.
     pub author: &'static str,

@@ -12,7 +12,7 @@ use uuid::Uuid;
 const MADE_BY_THE_BUILD: &str = "{made-by-the-build}";
 
 /// `modelDescription.xml` of `M`, the same text on every call and every machine; with a placeholder for a GUID that the build
-/// makes ([`ModelInfo::guid`]).
+/// has a part in ([`ModelInfo::guid`]). Whoever packs the FMU replaces it by [`guid`], which follows from this text.
 ///
 /// # Errors
 /// The first mistake in the table or in [`ModelInfo`].
@@ -24,8 +24,8 @@ pub fn render<M: Model>() -> Result<String, DefinitionError> {
     Ok(document(M::info(), M::table(), &guid)?.to_document())
 }
 
-/// GUID of `M`: that of the build, or else version 5 over its XML without GUID and its version, which any change to the interface
-/// changes.
+/// GUID of `M`, which any change to the interface changes, so that a library refuses a description of another table: version 5
+/// over what [`render`] gives, in the namespace of the build's GUID; without one, over the XML without GUID and the version.
 ///
 /// # Errors
 /// The first mistake in the table or in [`ModelInfo`].
@@ -34,12 +34,11 @@ pub fn guid<M: Model>() -> Result<Uuid, DefinitionError> {
     if let Some(defect) = M::table().defect() {
         return Err(defect.clone());
     }
-    if let Some(guid) = M::info().guid {
-        return Ok(guid);
-    }
-    let mut name = document(M::info(), M::table(), "")?.to_document();
-    name.push_str(M::info().version);
-    Ok(Uuid::new_v5(&Uuid::NAMESPACE_OID, name.as_bytes()))
+    let text = |guid| Ok(document(M::info(), M::table(), guid)?.to_document());
+    Ok(match M::info().guid {
+        Some(build) => Uuid::new_v5(&build, text(MADE_BY_THE_BUILD)?.as_bytes()),
+        None => Uuid::new_v5(&Uuid::NAMESPACE_OID, (text("")? + M::info().version).as_bytes()),
+    })
 }
 
 fn document<M>(info: &ModelInfo, table: &Table<M>, guid: &str) -> Result<Element, DefinitionError> {

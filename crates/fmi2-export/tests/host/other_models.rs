@@ -11,6 +11,7 @@ use fmi2_export::{
     TableBuilder, boundary, golden_check, guid, render,
 };
 use serde::{Deserialize, Serialize};
+use uuid::Uuid;
 
 use crate::host::{Host, Journal, Message, callbacks};
 
@@ -22,6 +23,10 @@ const SOUND: u8 = 0;
 const WITHOUT_START: u8 = 1;
 const PANICS_WHEN_MADE: u8 = 2;
 const FORGETFUL: u8 = 3;
+const BUILT: u8 = 4;
+
+/// What a build script gave the library of `BUILT`.
+const BUILD: Uuid = Uuid::from_u128(0x7f1f_3d1c_0d7e_5f6a_9b1e_1c2d_3e4f_5a6b);
 
 impl<const KIND: u8> Other<KIND> {
     fn new_table() -> Table<Self> {
@@ -52,6 +57,7 @@ macro_rules! model {
                     model_identifier: "other",
                     default_stop: 1.0,
                     default_step: 1.0,
+                    guid: ($kind == BUILT).then_some(BUILD),
                     ..ModelInfo::default()
                 })
             }
@@ -80,6 +86,7 @@ model!(SOUND);
 model!(WITHOUT_START);
 model!(PANICS_WHEN_MADE);
 model!(FORGETFUL);
+model!(BUILT);
 
 fn instantiate<M: Exported>(guid: &str, journal: &Journal) -> (*mut c_void, Vec<Message>) {
     let functions = callbacks(journal);
@@ -110,6 +117,32 @@ fn a_start_value_that_the_model_does_not_keep_fails_the_golden_check() {
         golden,
         Err(GoldenError::Definition(DefinitionError::StartNotKept { .. }))
     ));
+}
+
+/// Whoever packs an FMU has the text of its description and the GUID of the build; a text of other variables must not start.
+#[test]
+fn a_library_with_a_guid_of_its_build_refuses_the_description_of_another_table() {
+    let text = render::<Other<BUILT>>().unwrap();
+    assert!(text.contains("guid=\"{made-by-the-build}\""), "{text}");
+    let packed = |text: &str| Uuid::new_v5(&BUILD, text.as_bytes());
+    assert_eq!(guid::<Other<BUILT>>().unwrap(), packed(&text));
+    let starts = |guid: Uuid| {
+        let (component, messages) = instantiate::<Other<BUILT>>(&format!("{{{guid}}}"), &Journal::default());
+        if component.is_null() {
+            assert!(
+                messages[0].text.contains(&packed(&text).to_string()),
+                "{}",
+                messages[0].text
+            );
+            return false;
+        }
+        // SAFETY: the component is alive.
+        unsafe { boundary::free_instance::<Other<BUILT>>(component) };
+        true
+    };
+    assert!(starts(packed(&text)));
+    assert!(!starts(packed(&text.replace("name=\"x\"", "name=\"y\""))));
+    assert!(!starts(BUILD));
 }
 
 #[test]

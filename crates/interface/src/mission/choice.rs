@@ -95,12 +95,12 @@ pub fn packed_guid(own: &str, resources: &Path) -> Option<String> {
     Some(guid_with(own, &std::fs::read(packed(resources)?).ok()?))
 }
 
-/// Identifier of an FMU whose own is `own`, packed with the mission of this text: a name-based UUID of the text in the
-/// namespace of the FMU's own.
-pub fn guid_with(own: &str, mission: &[u8]) -> String {
+/// Identifier of an FMU whose own is `own`, tied to what it is packed with, be it its description or a mission: a name-based UUID
+/// of the text in the namespace of the FMU's own.
+pub fn guid_with(own: &str, text: &[u8]) -> String {
     let bare = own.trim_matches(['{', '}']);
     let own_id = uuid::Uuid::parse_str(bare).unwrap_or_default();
-    let with = uuid::Uuid::new_v5(&own_id, mission).to_string();
+    let with = uuid::Uuid::new_v5(&own_id, text).to_string();
     own.replace(bare, &with)
 }
 
