@@ -4,8 +4,8 @@
 
 mod common;
 
-use common::{harness, harness_ok, read_csv};
-use std::collections::HashMap;
+use common::{harness, harness_ok, read_csv, root};
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 const LEVELS: &str = r#"
@@ -109,6 +109,7 @@ fn laws_are_held_against_the_best_constant_of_each_level() {
     );
     for file in [
         "regret.md",
+        "report.html",
         "figures/leo_venting_regret.svg",
         "figures/leo_venting_regret.png",
     ] {
@@ -136,6 +137,39 @@ fn laws_are_held_against_the_best_constant_of_each_level() {
             .iter()
             .all(|r| r["runs"] == "6" && r["level"] == "strong")
     );
+}
+
+/// The file that draws ten thousand runs from the levels does not drift away from them.
+#[test]
+fn the_study_of_ten_thousand_runs_flies_every_level_of_the_venting_missions() {
+    let number = |value: &str| value.parse::<f64>().unwrap().to_bits();
+    let levels: toml::Table = harness_ok(&["regret", "--print-levels"]).parse().unwrap();
+    let mut tried = BTreeMap::new();
+    for level in levels["level"].as_array().unwrap() {
+        let is_for = |mission| level["missions"].as_array().unwrap().contains(&mission);
+        if is_for("leo_venting".into()) && is_for("nrho_venting".into()) {
+            let set = level
+                .get("set")
+                .and_then(toml::Value::as_array)
+                .cloned()
+                .unwrap_or_default();
+            let set = set.iter().map(|text| text.as_str().unwrap().split_once('=').unwrap());
+            let set: BTreeMap<String, u64> = set.map(|(name, value)| (name.to_owned(), number(value))).collect();
+            tried.insert(level["name"].as_str().unwrap().to_owned(), set);
+        }
+    }
+    let file = std::fs::read_to_string(root().join("studies/hybrid_ten_thousand_runs.toml")).unwrap();
+    let study: toml::Table = file.parse().unwrap();
+    let mut flown = BTreeMap::new();
+    for case in study["grid"][0]["cases"].as_array().unwrap() {
+        let mut set = case.as_table().unwrap().clone();
+        let name = set.remove("case").unwrap();
+        let set = set.into_iter().map(|(name, value)| (name, number(&value.to_string())));
+        flown.insert(name.as_str().unwrap().to_owned(), set.collect());
+    }
+    assert_eq!(flown, tried);
+    let missions = study["scenario"].as_array().unwrap().len();
+    assert!(study["runs"].as_integer().unwrap() as usize * flown.len() * missions >= 10_000);
 }
 
 #[test]

@@ -665,6 +665,51 @@ fn a_folder_of_reproduce_has_a_page_of_its_own() {
     }
 }
 
+/// One law, one constant and a bound at two levels of a mission, and one level of another.
+#[test]
+fn a_folder_of_regret_has_a_page_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let header = "mission,level,filter,family,kind,runs,failed,diverged,pos_rmse_m,vel_rmse_m_s,nees6,\
+                  pos_best,pos_ratio,pos_ratio_low,pos_ratio_high,vel_best,vel_ratio,vel_ratio_low,vel_ratio_high";
+    let rows = [
+        "leo,vents <1>,law<,law<,law,100,0,0,0.15,5e-4,0.8,snc(q=1e-5),1.02,0.99,1.05,snc(q=1e-5),1.5,1.4,1.6",
+        "leo,vents <1>,snc(q=1e-5),snc,fixed,100,0,0,0.147,3e-4,0.9,snc(q=1e-5),1,1,1,snc(q=1e-5),1,1,1",
+        "leo,vents <1>,told(q=1),told,bound,100,0,0,0.1,2e-4,0.9,snc(q=1e-5),0.68,0.6,0.7,snc(q=1e-5),0.66,0.6,0.7",
+        "leo,vents_10,law<,law<,law,100,1,2,0.25,5e-3,0.9,snc(q=1e-4),0.755,0.7,0.8,snc(q=1e-4),0.8,0.75,0.85",
+        "nrho,vents_10,law<,law<,law,4,0,0,0.25,5e-3,0.9,snc(q=1e-4),0.5,,,snc(q=1e-4),0.6,,",
+    ];
+    std::fs::write(
+        folder.path().join("regret.csv"),
+        format!("{header}\n{}\n", rows.join("\n")),
+    )
+    .unwrap();
+    harness_ok(&["report", text(folder.path())]);
+    let page = page(folder.path());
+    assert_eq!(
+        between(&page, "<p class=\"headline\">", "</p>"),
+        "Position RMSE over that of the best constant: law&#60; 0.755 to 1.02."
+    );
+    for part in [
+        "1.02 (0.990 to 1.05)",
+        "100, 3 bad",
+        "vents &#60;1&#62;",
+        "told (bound)",
+        "<td data-value=\"0.5\">0.500</td>",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert_eq!(page.matches("<svg").count(), 2, "a figure for each mission");
+    let Some((found, console)) = browsed(&page, COUNTS, "1200,900") else {
+        skipped("a_folder_of_regret_has_a_page_of_its_own", "chromium");
+        return;
+    };
+    assert!(console.is_empty(), "{console:#?}");
+    let expected = serde_json::json!({"rows": 5, "wide": false, "resources": 0});
+    for (name, value) in expected.as_object().unwrap() {
+        assert_eq!(&found[name], value, "{name}: {found}");
+    }
+}
+
 #[test]
 fn the_page_works_in_a_browser() {
     let page = page(study());

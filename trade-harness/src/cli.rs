@@ -522,7 +522,7 @@ pub struct MergeArgs {
   trade-harness report results/compare --parquet"
 )]
 pub struct ReportArgs {
-    /// Folder of a finished study; report.html goes there
+    /// Folder of a finished study, or of 'tune', 'reproduce' or 'regret'; report.html goes there
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
     /// Write the figures as SVG as well, into DIR/figures

@@ -1,7 +1,8 @@
 //! One self-contained HTML page from the folder of a study.
 //!
 //! The page is made of the files alone (`manifest.json`, `summary.csv`, `runs.csv`, `paired.csv`, `failures.csv`,
-//! `epochs/*.csv`, and where they are there `run_errors/*.csv`, `paths/*.csv`, `phases.csv`, `requirements.csv`, `search.csv`), so that a folder that somebody has sent gives the same page. It asks no host for anything.
+//! `epochs/*.csv`, and where they are there `run_errors/*.csv`, `paths/*.csv`, `phases.csv`, `requirements.csv`, `search.csv`; of
+//! `reproduce` and `regret` their own tables), so that a folder that somebody has sent gives the same page. It asks no host for anything.
 //!
 //! Start reading at [`html`]; [`Verdict`] says which filter is best and how surely, [`drawn`] draws the same figures as
 //! files. Inside, `figures` gathers what is drawn, `series` thins curves over time, `learning` those of `reproduce`, `window` sums
@@ -18,6 +19,7 @@ mod matrix;
 mod number;
 mod pack;
 mod page;
+mod regret;
 mod reproduced;
 mod search;
 mod series;
@@ -33,13 +35,16 @@ pub use verdict::{Rival, RunValues, Verdict};
 
 /// The page of a folder.
 ///
-/// * `folder`: where `compare`, `tune` or `reproduce` has written.
+/// * `folder`: where `compare`, `tune`, `reproduce` or `regret` has written.
 ///
 /// # Errors
-/// [`ReportError`]: the folder holds no study, or a file of it cannot be understood.
+/// [`ReportError`]: the folder holds no study, or a file of it cannot be understood; of `regret`, [`ReportError::NoFont`] too.
 pub fn html(folder: &Path) -> Result<String, ReportError> {
     if folder.join(reproduced::TABLE).is_file() {
         return reproduced::render(folder);
+    }
+    if folder.join(drawn::regret::TABLE).is_file() {
+        return regret::render(folder);
     }
     page::render(&folder::Folder::read(folder)?)
 }

@@ -2,11 +2,13 @@
 
 use std::fs;
 
+use html_report::Format;
 use serde::{Deserialize, Serialize};
-use study::{Models, NAV, Plan, Study, World, check_real_range, rehearse};
+use study::{Models, NAV, Plan, Study, World, chain, check_real_range, rehearse};
 
 use super::out::Out;
 use super::progress::Progress;
+use super::report::write_page;
 use super::shared::{Verdict, closing, models, note, plan_of};
 use crate::HarnessError;
 use crate::cli::RegretArgs;
@@ -118,8 +120,13 @@ pub(super) fn regret(args: &RegretArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
     progress.end();
     let mut files = vec!["regret.csv".to_owned()];
     files.extend(folder.write_all(vec![("regret.md".to_owned(), markdown(&rows, &missions).into_bytes())])?);
-    for format in [html_report::Format::Svg, html_report::Format::Png] {
-        files.extend(folder.write_all(html_report::drawn(folder.path(), format)?)?);
+    match shown(&folder) {
+        Ok(names) => files.extend(names),
+        // What was found does not hang on a font.
+        Err(error) => note(&format!(
+            "note: there is no report.html, nor a figure: {}",
+            chain(&error)
+        )),
     }
     for mission in &missions {
         let own: Vec<&Row> = rows.iter().filter(|row| row.mission == *mission).collect();
@@ -134,6 +141,15 @@ pub(super) fn regret(args: &RegretArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
     out.tell("regret", rows.iter().map(told).collect::<Vec<_>>())?;
     closing(&folder, &files, out)?;
     Ok(Verdict::Done)
+}
+
+/// Writes the page and the figures; returns their names.
+fn shown(folder: &OutputFolder) -> Result<Vec<String>, HarnessError> {
+    let mut names = vec![write_page(folder)?];
+    for format in [Format::Svg, Format::Png] {
+        names.extend(folder.write_all(html_report::drawn(folder.path(), format)?)?);
+    }
+    Ok(names)
 }
 
 fn asked(level: &Level, args: &RegretArgs) -> bool {

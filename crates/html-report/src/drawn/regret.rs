@@ -10,18 +10,34 @@ use crate::folder::{Row, table};
 use plotters::style::Color;
 
 /// Name of the table that makes a folder one of `regret`.
-pub(super) const TABLE: &str = "regret.csv";
+pub(crate) const TABLE: &str = "regret.csv";
+
+/// Its rows, with the columns that figure and page are made of.
+pub(crate) fn rows(folder: &Path) -> Result<Vec<Row>, ReportError> {
+    table(
+        folder,
+        TABLE,
+        &["mission", "level", "filter", "family", "kind", "pos_ratio", "vel_ratio"],
+    )
+}
+
+/// What rows are called, in the order in which they come.
+pub(crate) fn names<'a>(rows: impl IntoIterator<Item = &'a &'a Row>, of: impl Fn(&'a Row) -> &'a str) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for row in rows {
+        if !names.iter().any(|name| name == of(row)) {
+            names.push(of(row).to_owned());
+        }
+    }
+    names
+}
 
 /// Ratios beyond these stand at the edge.
 const EDGES: [f64; 2] = [0.25, 10.0];
 
-/// A figure for each mission.
+/// A figure for each mission, by its name.
 pub(super) fn sheets(folder: &Path) -> Result<Vec<(String, Sheet)>, ReportError> {
-    let rows = table(
-        folder,
-        TABLE,
-        &["mission", "level", "filter", "family", "kind", "pos_ratio", "vel_ratio"],
-    )?;
+    let rows = rows(folder)?;
     let of_kind = |kind| rows.iter().filter(move |row| row.text("kind") == kind);
     let (laws, bounds): (Vec<&Row>, Vec<&Row>) = (of_kind("law").collect(), of_kind("bound").collect());
     let missions = names(laws.iter().chain(&bounds), |row| row.text("mission"));
@@ -30,20 +46,10 @@ pub(super) fn sheets(folder: &Path) -> Result<Vec<(String, Sheet)>, ReportError>
             let own = all.iter().filter(|row| row.text("mission") == mission);
             own.copied().collect::<Vec<&Row>>()
         });
-        (format!("{mission}_regret"), of_mission(&mission, &laws, &bounds))
+        let sheet = of_mission(&mission, &laws, &bounds);
+        (mission, sheet)
     };
     Ok(missions.into_iter().map(sheet).collect())
-}
-
-/// What rows are called, in the order in which they come.
-fn names<'a>(rows: impl IntoIterator<Item = &'a &'a Row>, of: impl Fn(&'a Row) -> &'a str) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for row in rows {
-        if !names.iter().any(|name| name == of(row)) {
-            names.push(of(row).to_owned());
-        }
-    }
-    names
 }
 
 /// Lines of the bounds, one for each family.
