@@ -15,6 +15,8 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     about: "white acceleration whose density follows the size of the innovations",
     motion: Motion::OfFrame,
     update: Update::Kalman,
+    ours: true,
+    bound: false,
     tunables: &[
         Tunable {
             name: "q",

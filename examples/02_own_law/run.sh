@@ -13,7 +13,7 @@ cd "$copy"
 # One file, and its two lines: the module and the registry.
 cp "$root/examples/02_own_law/covariance_matching.rs" crates/filters/src/laws/
 sed -i 's/^mod dmc;/mod covariance_matching;\n&/' crates/filters/src/laws/mod.rs
-sed -i 's/^    EkfJ2 => ekf_j2;/&\n    CovarianceMatching => covariance_matching;/' crates/filters/src/laws/registry.rs
+sed -i '/^registry! {/,/^}/ s/^}/    CovarianceMatching => covariance_matching;\n&/' crates/filters/src/laws/registry.rs
 
 UPDATE_GOLDEN=1 cargo test --release --quiet --package fmu-nav
 cargo test --release --quiet --package filters --test all_filters

@@ -10,7 +10,7 @@ import pandas
 import polars
 
 TEXT = {"filter", "status"}
-WHOLE = {"sample", "measured", "run", "runs"}
+WHOLE = {"sample", "measured", "run", "runs", "nis_runs"}
 
 
 def kind(name):

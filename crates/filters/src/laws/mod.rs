@@ -33,3 +33,23 @@ pub use adaptation::{Adaptation, Hindsight, Setup, Step};
 pub use bank::Replacement;
 pub use entry::{FilterEntry, Motion, Search, Update};
 pub use registry::{FILTERS, Law};
+
+/// The law of the examples, compiled here so that it never falls behind what a law is.
+#[cfg(test)]
+#[path = "../../../../examples/02_own_law/covariance_matching.rs"]
+mod example;
+
+#[cfg(test)]
+mod tests {
+    use super::example::{CovarianceMatching, ENTRY};
+    use super::{Adaptation, FILTERS, Setup};
+    use crate::error::FilterError;
+
+    #[test]
+    fn the_law_of_the_examples_is_one_that_could_be_registered() {
+        fn is_a_law<L: Adaptation>(_: fn(&Setup<'_>) -> Result<L, FilterError>) {}
+        is_a_law(CovarianceMatching::new);
+        assert!(FILTERS.iter().all(|entry| entry.name != ENTRY.name));
+        assert_eq!(ENTRY.presets[0].name, "paper");
+    }
+}
