@@ -6,13 +6,15 @@
 //!
 //! Start reading at [`html`]; [`Verdict`] says which filter is best and how surely, [`drawn`] draws the same figures as
 //! files. Inside, `figures` gathers what is drawn, `series` thins curves over time, `learning` those of `reproduce`, `window` sums
-//! what the page makes errors of any stretch of time of, `pack` writes numbers short, and `page` fills the template.
+//! what the page makes errors of any stretch of time of, `pack` writes numbers short, `page`, `reproduced` and `regret` fill the templates,
+//! and `frame` what all of these share.
 
 mod drawn;
 mod error;
 mod events;
 mod figures;
 mod folder;
+mod frame;
 mod kept;
 mod learning;
 mod matrix;

@@ -8,6 +8,7 @@ use serde_json::Value;
 use crate::ReportError;
 use crate::figures::{self, Figures, FilterFigures};
 use crate::folder::{Folder, Manifest, Row, StudyFacts};
+use crate::frame::Frame;
 use crate::number::short;
 use crate::series::{Means, Series};
 use crate::verdict::{RunValues, Verdict};
@@ -35,15 +36,10 @@ const TABLE: [(&str, &str, &str); 14] = [
 
 #[derive(Template)]
 #[template(path = "report.html")]
-struct Page<'a> {
-    title: String,
+struct Page {
+    frame: Frame,
     studies: Vec<Section>,
     digests: Vec<[String; 2]>,
-    style: &'a str,
-    plot_style: &'a str,
-    plot_script: &'a str,
-    script: &'a str,
-    data: String,
 }
 
 /// What the page says of one world's study.
@@ -135,17 +131,10 @@ pub(crate) fn render(folder: &Folder) -> Result<String, ReportError> {
     }
     let mut worlds: Vec<&str> = manifest.studies.iter().map(|s| s.scenario.as_str()).collect();
     worlds.dedup();
-    // A label may hold anything: nothing in it must end the script element.
-    let data = serde_json::to_string(&figures)?.replace('<', "\\u003c");
     let page = Page {
-        title: format!("Navigation filters in {}", worlds.join(", ")),
+        frame: Frame::new(format!("Navigation filters in {}", worlds.join(", ")), &figures)?,
         studies,
         digests: digests(manifest),
-        style: include_str!("../assets/report.css"),
-        plot_style: include_str!("../assets/uplot/uPlot.min.css"),
-        plot_script: include_str!("../assets/uplot/uPlot.iife.min.js"),
-        script: include_str!("../assets/report.js"),
-        data,
     };
     Ok(page.render()?)
 }

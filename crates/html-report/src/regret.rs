@@ -8,16 +8,14 @@ use crate::ReportError;
 use crate::drawn::regret::{names, rows};
 use crate::drawn::regret_figures;
 use crate::folder::Row;
+use crate::frame::Frame;
 use crate::number::short;
 
 #[derive(Template)]
 #[template(path = "regret.html")]
-struct Page<'a> {
+struct Page {
+    frame: Frame,
     missions: Vec<Mission>,
-    style: &'a str,
-    plot_style: &'a str,
-    plot_script: &'a str,
-    script: &'a str,
 }
 
 struct Mission {
@@ -54,12 +52,11 @@ pub(crate) fn render(folder: &Path) -> Result<String, ReportError> {
             name,
         }
     });
+    // Its figures are drawn already.
+    let nothing: [(); 0] = [];
     let page = Page {
+        frame: Frame::new("Laws against the best constant in hindsight", &nothing)?,
         missions: missions.collect(),
-        style: include_str!("../assets/report.css"),
-        plot_style: include_str!("../assets/uplot/uPlot.min.css"),
-        plot_script: include_str!("../assets/uplot/uPlot.iife.min.js"),
-        script: include_str!("../assets/report.js"),
     };
     Ok(page.render()?)
 }

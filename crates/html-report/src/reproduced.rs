@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::ReportError;
 use crate::folder::{Row, over_time, table};
+use crate::frame::Frame;
 use crate::learning::{self, Learning};
 use crate::number::short;
 
@@ -13,15 +14,11 @@ pub(crate) const TABLE: &str = "reproduce.csv";
 
 #[derive(Template)]
 #[template(path = "reproduced.html")]
-struct Page<'a> {
+struct Page {
+    frame: Frame,
     headline: String,
     lines: Vec<Line>,
     has_learning: bool,
-    style: &'a str,
-    plot_style: &'a str,
-    plot_script: &'a str,
-    script: &'a str,
-    data: String,
 }
 
 struct Line {
@@ -66,14 +63,10 @@ pub(crate) fn render(folder: &std::path::Path) -> Result<String, ReportError> {
         learning,
     }];
     let page = Page {
+        frame: Frame::new("What the papers print, again", &data)?,
         headline: format!("{missed} of {} required bounds missed.", required.count()),
         lines: rows.iter().map(line).collect(),
         has_learning: data[0].learning.is_some(),
-        style: include_str!("../assets/report.css"),
-        plot_style: include_str!("../assets/uplot/uPlot.min.css"),
-        plot_script: include_str!("../assets/uplot/uPlot.iife.min.js"),
-        script: include_str!("../assets/report.js"),
-        data: serde_json::to_string(&data)?.replace('<', "\\u003c"),
     };
     Ok(page.render()?)
 }
