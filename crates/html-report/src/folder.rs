@@ -9,6 +9,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use crate::ReportError;
+use crate::number::short;
 
 /// What the page uses of `manifest.json`; whatever else stands there is left alone.
 #[derive(Debug, Deserialize)]
@@ -52,6 +53,11 @@ impl Row {
     /// `None` for an empty cell.
     pub fn number(&self, column: &str) -> Option<f64> {
         self.text(column).parse().ok()
+    }
+
+    /// A number as it is sorted and as it is shown.
+    pub fn cell(&self, column: &str) -> [String; 2] {
+        [self.text(column).to_owned(), short(self.number(column))]
     }
 
     /// Zero for an empty cell.

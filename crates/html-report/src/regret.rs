@@ -6,7 +6,7 @@ use askama::Template;
 
 use crate::ReportError;
 use crate::drawn::regret::{names, rows};
-use crate::drawn::regret_figures;
+use crate::drawn::{Format, drawn};
 use crate::folder::Row;
 use crate::frame::Frame;
 use crate::number::short;
@@ -38,16 +38,13 @@ struct Line {
 pub(crate) fn render(folder: &Path) -> Result<String, ReportError> {
     let rows = rows(folder)?;
     let all: Vec<&Row> = rows.iter().collect();
-    let figures = regret_figures(folder)?;
+    let figures = drawn(folder, Format::Svg)?;
     let missions = names(&all, |row| row.text("mission")).into_iter().map(|name| {
         let own = all.iter().copied().filter(|row| row.text("mission") == name);
         let own: Vec<&Row> = own.collect();
         Mission {
             headline: headline(&own),
-            figure: figures
-                .iter()
-                .find(|(of, _)| *of == name)
-                .map_or_else(String::new, |(_, svg)| svg.clone()),
+            figure: figure(&figures, &name),
             lines: own.iter().map(|row| line(row)).collect(),
             name,
         }
@@ -59,6 +56,13 @@ pub(crate) fn render(folder: &Path) -> Result<String, ReportError> {
         missions: missions.collect(),
     };
     Ok(page.render()?)
+}
+
+/// That of a mission, as [`drawn`] names it.
+fn figure(figures: &[(String, Vec<u8>)], mission: &str) -> String {
+    let name = format!("figures/{mission}_regret.svg");
+    let svg = figures.iter().find(|(of, _)| *of == name);
+    svg.map_or_else(String::new, |(_, svg)| String::from_utf8_lossy(svg).into_owned())
 }
 
 /// From its best to its worst level, law by law.
@@ -79,10 +83,9 @@ fn headline(own: &[&Row]) -> String {
 
 fn line(row: &Row) -> Line {
     let text = |column: &str| row.text(column).to_owned();
-    let number = |column: &str| [text(column), short(row.number(column))];
     let ratio = |column: &str| {
         let [low, high] = ["low", "high"].map(|end| row.number(&format!("{column}_{end}")));
-        let [sorted, shown] = number(column);
+        let [sorted, shown] = row.cell(column);
         match (low, high) {
             (Some(_), Some(_)) => [sorted, format!("{shown} ({} to {})", short(low), short(high))],
             _ => [sorted, shown],
@@ -101,9 +104,9 @@ fn line(row: &Row) -> Line {
         numbers: [
             ratio("pos_ratio"),
             ratio("vel_ratio"),
-            number("pos_rmse_m"),
-            number("vel_rmse_m_s"),
-            number("nees6"),
+            row.cell("pos_rmse_m"),
+            row.cell("vel_rmse_m_s"),
+            row.cell("nees6"),
         ],
     }
 }

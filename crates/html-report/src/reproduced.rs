@@ -73,14 +73,13 @@ pub(crate) fn render(folder: &std::path::Path) -> Result<String, ReportError> {
 
 fn line(row: &Row) -> Line {
     let text = |column: &str| row.text(column).to_owned();
-    let number = |column: &str| [text(column), short(row.number(column))];
     let [low, high] = ["bound_low", "bound_high"].map(|column| row.number(column).map(|v| short(Some(v))));
     Line {
         paper: text("paper"),
         item: text("item"),
         quantity: text("quantity"),
         unit: text("unit"),
-        numbers: ["paper_value", "value", "standard_error"].map(number),
+        numbers: ["paper_value", "value", "standard_error"].map(|column| row.cell(column)),
         bound: match (low, high) {
             (Some(low), Some(high)) => format!("{low} to {high}"),
             (Some(low), None) => format!("≥ {low}"),

@@ -77,16 +77,6 @@ pub fn drawn(folder: &Path, format: Format) -> Result<Vec<(String, Vec<u8>)>, Re
     sheets(folder)?.into_iter().map(drawn).collect()
 }
 
-/// The figure of each mission of a folder of `regret`, as SVG.
-pub(crate) fn regret_figures(folder: &Path) -> Result<Vec<(String, String)>, ReportError> {
-    use_a_font()?;
-    let svg = |(mission, sheet): (String, Sheet)| {
-        let bytes = canvas::svg(&sheet)?;
-        Ok((mission, String::from_utf8_lossy(&bytes).into_owned()))
-    };
-    regret::sheets(folder)?.into_iter().map(svg).collect()
-}
-
 /// Every figure with its name.
 fn sheets(folder: &Path) -> Result<Vec<(String, Sheet)>, ReportError> {
     if folder.join(reproduced::TABLE).is_file() {
@@ -95,10 +85,7 @@ fn sheets(folder: &Path) -> Result<Vec<(String, Sheet)>, ReportError> {
         return Ok(sheet.into_iter().collect());
     }
     if folder.join(regret::TABLE).is_file() {
-        let sheets = regret::sheets(folder)?.into_iter();
-        return Ok(sheets
-            .map(|(mission, sheet)| (format!("{mission}_regret"), sheet))
-            .collect());
+        return regret::sheets(folder);
     }
     let folder = Folder::read(folder)?;
     let mut sheets = Vec::new();

@@ -35,7 +35,7 @@ pub(crate) fn names<'a>(rows: impl IntoIterator<Item = &'a &'a Row>, of: impl Fn
 /// Ratios beyond these stand at the edge.
 const EDGES: [f64; 2] = [0.25, 10.0];
 
-/// A figure for each mission, by its name.
+/// A figure for each mission.
 pub(super) fn sheets(folder: &Path) -> Result<Vec<(String, Sheet)>, ReportError> {
     let rows = rows(folder)?;
     let of_kind = |kind| rows.iter().filter(move |row| row.text("kind") == kind);
@@ -46,8 +46,7 @@ pub(super) fn sheets(folder: &Path) -> Result<Vec<(String, Sheet)>, ReportError>
             let own = all.iter().filter(|row| row.text("mission") == mission);
             own.copied().collect::<Vec<&Row>>()
         });
-        let sheet = of_mission(&mission, &laws, &bounds);
-        (mission, sheet)
+        (format!("{mission}_regret"), of_mission(&mission, &laws, &bounds))
     };
     Ok(missions.into_iter().map(sheet).collect())
 }
