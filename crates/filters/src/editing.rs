@@ -11,7 +11,8 @@
 //!   There are four of them, or as many as are fresh and have come since the last suspect; where none is, only what is beyond all
 //!   bounds is passed by;
 //! * where the filter's record speaks for it: of the sensor's last samples at most a third were suspected;
-//! * not more than a few times in a row, and then not again until a sample fits.
+//! * not more than a few times in a row, and then not again until a sample fits. Where a filter has lost its way, suspects say the same,
+//!   and outliers do not: one that stands out from the suspect before it, too, is passed by for as long again.
 //!
 //! Without a record, at the start above all, only what is beyond all bounds and far from the measurement before is passed by.
 
@@ -66,6 +67,8 @@ struct Watched {
     suspected: u32,
     /// Samples passed by since the last that fitted.
     in_a_row: i32,
+    /// The last that was passed by; nothing was taken of it.
+    passed: Option<Used>,
     /// The last that were not passed by, the newest first.
     used: [Option<Used>; BEFORE],
 }
@@ -87,6 +90,7 @@ impl Watched {
             period_s,
             suspected: (1 << RECORD) - 1,
             in_a_row: 0,
+            passed: None,
             used: [None; BEFORE],
         }
     }
@@ -96,11 +100,15 @@ impl Watched {
         3 * self.suspected.count_ones() <= RECORD
     }
 
+    /// Whether a sample still says something of the one that comes at this time.
+    fn is_fresh(&self, used: &Used, time_s: f64) -> bool {
+        time_s - used.time_s <= FRESH * self.period_s + TICK
+    }
+
     /// What the last samples used have left, by their mean, and the variance of that over the variance of one; `None` where there
     /// is none that is fresh.
     fn left(&self, time_s: f64) -> Option<(Rows, f64)> {
-        let is_fresh = |used: &&Used| time_s - used.time_s <= FRESH * self.period_s + TICK;
-        let fresh = self.used.iter().flatten().filter(is_fresh);
+        let fresh = self.used.iter().flatten().filter(|used| self.is_fresh(used, time_s));
         let (count, sum) = fresh.fold((0.0, Rows::zeros()), |(count, sum), used| {
             (count + 1.0, sum + used.left)
         });
@@ -209,27 +217,35 @@ impl Editing {
             // that of its own update.
             let watched = &mut self.watched[sensor as usize];
             let (outlier, gross) = if nis >= odds {
-                let seen = Seen::new(step, rows, excess().as_ref(), r);
+                let seen = Seen::new(step, rows.clone(), excess().as_ref(), r);
                 (seen.is_outlier(odds), seen.is_gross())
             } else {
                 (false, false)
             };
             let suspect = outlier || gross;
+            // That outliers are rare has been counted already.
+            let stands_out = |from: &(Rows, f64)| Seen::change(step, rows.clone(), from, r).is_outlier(0.0);
+            let most = match &watched.passed {
+                Some(passed) if watched.is_fresh(passed, sample.time) && stands_out(&(passed.left, 1.0)) => {
+                    2 * self.most
+                }
+                _ => self.most,
+            };
             let doubted = suspect
-                && watched.in_a_row < self.most
+                && watched.in_a_row < most
                 && if watched.has_fitted() {
-                    let rows = layout.of_sensor(sensor);
-                    // That outliers are rare has been counted already.
-                    match watched.left(sample.time) {
-                        Some(left) => Seen::change(step, rows, &left, r).is_outlier(0.0),
-                        None => gross,
-                    }
+                    watched.left(sample.time).map_or(gross, |left| stands_out(&left))
                 } else {
                     gross && watched.is_far(&z, sensor)
                 };
             watched.suspected = (watched.suspected << 1 | u32::from(suspect)) & ((1 << RECORD) - 1);
             if doubted {
                 watched.in_a_row += 1;
+                watched.passed = Some(Used {
+                    time_s: sample.time,
+                    z,
+                    left: Seen::new(step, rows, None, r).innovation,
+                });
                 self.outliers += 1;
                 found.push(sensor);
             } else if !suspect {
@@ -296,18 +312,13 @@ impl Seen {
     /// What has changed since the last samples used, if the filter's motion is right: the noise of this one and of their mean.
     ///
     /// * `left`: as [`Watched::left`].
-    fn change(
-        step: &Step,
-        rows: impl IntoIterator<Item = Range<usize>>,
-        (left, share): &(Rows, f64),
-        r: &RowVector,
-    ) -> Self {
+    fn change(step: &Step, rows: Range<usize>, (left, share): &(Rows, f64), r: &RowVector) -> Self {
         let mut seen = Self {
             innovation: SVector::zeros(),
             s: SMatrix::identity(),
             more: SMatrix::zeros(),
         };
-        for (i, row) in rows.into_iter().flatten().enumerate().take(MOST) {
+        for (i, row) in rows.enumerate().take(MOST) {
             seen.innovation[i] = step.innovation[row] - left[i];
             seen.s[(i, i)] = (1.0 + share) * r[row];
             seen.more[(i, i)] = MORE * r[row];
@@ -526,8 +537,14 @@ mod tests {
         }
     }
 
+    /// Suspects that say the same, and suspects of which each says something else.
     #[test]
-    fn not_more_than_three_in_a_row_are_passed_by() {
+    fn not_more_than_three_in_a_row_are_passed_by_or_six_that_disagree() {
+        let mut editing = settled(Some(0.01));
+        let each: Vec<bool> = (0..9)
+            .map(|k| finds(&mut editing, if k % 2 == 0 { 30.0 } else { -40.0 }, None))
+            .collect();
+        assert_eq!(each, [true, true, true, true, true, true, false, false, false]);
         let mut editing = settled(Some(0.01));
         let mut found = |v: f64| finds(&mut editing, v, None);
         let off: Vec<bool> = (0..6).map(|_| found(30.0)).collect();

@@ -30,6 +30,39 @@ pub fn over<const R: usize, const N: usize>(b: &SMatrix<f64, R, N>, l: &SMatrix<
     x
 }
 
+/// F P and F P F^T, a covariance P taken through a linear map F.
+///
+/// Whole columns are worked on, in loops whose lengths are known, and one triangle is computed and mirrored: the second product is
+/// symmetric to the bit.
+///
+/// * `f`: R x N; `p`: N x N, symmetric.
+pub fn carried<const R: usize, const N: usize>(
+    f: &SMatrix<f64, R, N>,
+    p: &SMatrix<f64, N, N>,
+) -> (SMatrix<f64, R, N>, SMatrix<f64, R, R>) {
+    let (mut fp, mut fpf) = (SMatrix::<f64, R, N>::zeros(), SMatrix::<f64, R, R>::zeros());
+    for j in 0..N {
+        let column = &mut fp.data.0[j];
+        for k in 0..N {
+            let factor = p.data.0[j][k];
+            for i in 0..R {
+                column[i] += f.data.0[k][i] * factor;
+            }
+        }
+    }
+    for j in 0..R {
+        let column = &mut fpf.data.0[j];
+        for k in 0..N {
+            let factor = f.data.0[k][j];
+            for i in 0..R {
+                column[i] += fp.data.0[k][i] * factor;
+            }
+        }
+    }
+    fpf.fill_upper_triangle_with_lower_triangle();
+    (fp, fpf)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -41,6 +74,17 @@ mod tests {
         let b = SMatrix::<f64, 5, 3>::from_fn(|i, j| (i as f64 - 1.5) * (j as f64 + 0.3) + 0.1 * i as f64);
         let x = over(&b, &s.cholesky().unwrap().unpack_dirty());
         assert!((x * s - b).amax() < 1e-14, "{x}");
+    }
+
+    /// By nalgebra's products.
+    #[test]
+    fn carried_is_both_products() {
+        let p = Matrix3::new(4.0, 1.0, -2.0, 1.0, 9.0, 0.5, -2.0, 0.5, 6.0);
+        let f = SMatrix::<f64, 5, 3>::from_fn(|i, j| (i as f64 - 1.5) * (j as f64 + 0.3) + 0.1 * i as f64);
+        let (fp, fpf) = carried(&f, &p);
+        assert!((fp - f * p).amax() < 1e-13, "{fp}");
+        assert!((fpf - f * p * f.transpose()).amax() < 1e-12, "{fpf}");
+        assert_eq!(fpf, fpf.transpose());
     }
 
     #[test]

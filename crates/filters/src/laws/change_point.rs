@@ -39,7 +39,7 @@ pub(super) const QUIET: Tunable = Tunable {
     name: "quiet",
     about: "square root of the acceleration density of the filter that knows of no change",
     kind: Kind::Real {
-        start: Start::Fixed(2e-6),
+        start: Start::Fixed(5e-6),
         unit: "m/s^1.5",
         bound: Bound::Positive,
     },

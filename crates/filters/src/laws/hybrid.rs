@@ -3,10 +3,10 @@
 
 use super::adaptation::Setup;
 use super::bank::velocity_change::VelocityChanges;
-use super::bank::{Bank, CONSTANTS, Centre, Member, Mixture, Shared, Weights, contaminate};
+use super::bank::{Bank, CONSTANTS, Centre, Member, Mixture, Shared, Weights};
 use super::change_point::{DECIDED, DIRECTIONS, QUIET, RATE, SCHEDULE, WINDOW, velocity_changes};
 use super::entry::{FilterEntry, Motion, Update};
-use super::mmae::{Decades, MEMORY};
+use super::mmae::{self, Decades};
 use crate::error::FilterError;
 use crate::jerk;
 use crate::state::{Target, TargetMatrix};
@@ -21,7 +21,7 @@ const WALKING: [f64; 2] = [1e-8, 1e-7];
 /// Weight of the hypotheses at the start; the others share the rest.
 const PRIOR_CHANGES: f64 = 0.7;
 /// Weight of a white one over that of the one a decade quieter.
-const LOUDER: f64 = 0.25;
+const LOUDER: f64 = 0.2;
 /// Weight of a walking one over that of the quietest white one.
 const PRIOR_WALKING: f64 = 1.0 / 32.0;
 
@@ -44,6 +44,16 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
     ],
     presets: &[CONSTANTS],
     search: &[],
+};
+
+/// Tunable `memory`.
+const MEMORY: Tunable = Tunable {
+    kind: Kind::Real {
+        start: Start::Fixed(10_000.0),
+        unit: "s",
+        bound: Bound::Positive,
+    },
+    ..mmae::MEMORY
 };
 
 /// Tunable `contamination`.
@@ -133,8 +143,7 @@ impl Bank for Hybrid {
             let noise = jerk::process_noise(&Vector3::repeat(*density), shared.dt);
             likelihoods.push(shared.take(member, &f, &noise, self.acceleration));
         }
-        contaminate(&mut likelihoods, self.contamination);
-        self.weights.update(shared.dt, &likelihoods);
+        self.weights.update(shared.dt, &likelihoods, self.contamination);
     }
 
     fn mixture(&self) -> Mixture {

@@ -98,7 +98,7 @@ impl Bank for Imm {
         }
         let mut likelihoods = Vec::with_capacity(self.weights.len());
         self.decades.take(shared, &mut likelihoods);
-        reweigh(&mut self.weights, &likelihoods);
+        reweigh(&mut self.weights, &likelihoods, 0.0);
     }
 
     fn mixture(&self) -> Mixture {

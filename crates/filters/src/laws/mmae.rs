@@ -154,7 +154,7 @@ impl Bank for Mmae {
     fn take(&mut self, shared: &Shared) {
         let mut likelihoods = Vec::with_capacity(self.decades.members.len());
         self.decades.take(shared, &mut likelihoods);
-        self.weights.update(shared.dt, &likelihoods);
+        self.weights.update(shared.dt, &likelihoods, 0.0);
     }
 
     fn mixture(&self) -> Mixture {

@@ -68,7 +68,7 @@ impl Centre {
         let six = |m: &TargetMatrix| m.fixed_view::<6, 6>(0, 0).into_owned();
         let (f, prior) = (six(&step.f), six(&step.p_prior));
         let walk = white(self.density, step.dt);
-        let carried = |p: &Matrix6<f64>| f * p * f.transpose();
+        let carried = |p: &Matrix6<f64>| spd::carried(&f, p).1;
         let (common, mixture_prior) = match &self.last {
             None => (Matrix6::zeros(), prior),
             Some((before, said)) => {
@@ -114,7 +114,7 @@ impl Centre {
 
     /// As [`crate::laws::Adaptation::excess`].
     pub(in crate::laws) fn excess(&self, f: &Matrix6<f64>) -> Option<Matrix6<f64>> {
-        self.last.as_ref().map(|(own, said)| f * (said.p - own) * f.transpose())
+        self.last.as_ref().map(|(own, said)| spd::carried(f, &(said.p - own)).1)
     }
 
     /// White acceleration density of the mixture.
@@ -179,13 +179,13 @@ impl Shared {
 
     /// A member through the step; its deviation is then from the centre's mean after the update.
     ///
-    /// * `f`: transition of its states, D x D; `noise`: its own process noise, D x D.
+    /// * `f`: transition into position and velocity, 6 x D; `noise`: its own process noise, D x D.
     /// * `acceleration`: variance of the acceleration that it starts with, where it has one.
     /// * returns: log-likelihood of the sample.
     pub(in crate::laws) fn take<const D: usize>(
         &self,
         member: &mut Member<D>,
-        f: &SMatrix<f64, D, D>,
+        f: &SMatrix<f64, 6, D>,
         noise: &SMatrix<f64, D, D>,
         acceleration: f64,
     ) -> f64 {
@@ -199,7 +199,7 @@ impl Shared {
     pub(in crate::laws) fn predict<const D: usize>(
         &self,
         member: &mut Member<D>,
-        f: &SMatrix<f64, D, D>,
+        f: &SMatrix<f64, 6, D>,
         noise: &SMatrix<f64, D, D>,
         acceleration: f64,
     ) {
@@ -220,10 +220,10 @@ impl Shared {
         deviation -= self.correction;
     }
 
-    /// Transition of nine states, the acceleration held: its effect on position and velocity by the trapezoidal rule over the
-    /// interval, exact but for the gravity gradient's share of it.
-    pub(in crate::laws) fn with_acceleration(&self) -> SMatrix<f64, 9, 9> {
-        let mut f = SMatrix::<f64, 9, 9>::identity();
+    /// Transition from nine states into position and velocity, 6x9, the acceleration held: its effect by the trapezoidal rule over
+    /// the interval, exact but for the gravity gradient's share of it.
+    pub(in crate::laws) fn with_acceleration(&self) -> SMatrix<f64, 6, 9> {
+        let mut f = SMatrix::<f64, 6, 9>::zeros();
         f.fixed_view_mut::<6, 6>(0, 0).copy_from(&self.f);
         let half = self.dt / 2.0;
         for axis in 0..3 {

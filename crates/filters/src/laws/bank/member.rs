@@ -25,23 +25,46 @@ pub(super) struct Taken<const D: usize> {
     pub s: f64,
 }
 
+/// Likelihood of a sample while its rows are taken, without the part that all members share. One logarithm for all rows: the
+/// determinant of thirteen is far from overflow in any units.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Likelihood {
+    /// Normalised innovation squared.
+    nis: f64,
+    /// Determinant of the innovation covariance.
+    det: f64,
+}
+
+impl Default for Likelihood {
+    fn default() -> Self {
+        Self { nis: 0.0, det: 1.0 }
+    }
+}
+
 impl<const D: usize> Member<D> {
-    /// Time update: F dx, F P F' + noise.
+    /// Time update: F dx, F P F' + noise. What is beyond position and velocity stays as it is.
     ///
-    /// * `f`: transition, D x D.
+    /// * `f`: transition into position and velocity, 6 x D.
     /// * `noise`: process noise of the member's own, D x D.
     /// * `common`: what everything else adds to position and velocity, 6x6.
     pub(in crate::laws) fn predict(
         &mut self,
-        f: &SMatrix<f64, D, D>,
+        f: &SMatrix<f64, 6, D>,
         noise: &SMatrix<f64, D, D>,
         common: &Matrix6<f64>,
     ) {
-        self.dx = f * self.dx;
-        self.p = f * self.p * f.transpose() + noise;
-        let mut own = self.p.fixed_view_mut::<6, 6>(0, 0);
-        own += common;
-        self.p = spd::symmetrised(&self.p);
+        let moved = f * self.dx;
+        self.dx.fixed_rows_mut::<6>(0).copy_from(&moved);
+        let (fp, own) = spd::carried(f, &self.p);
+        self.p.fixed_view_mut::<6, 6>(0, 0).copy_from(&(own + common));
+        for beyond in 6..D {
+            let with_own = fp.column(beyond);
+            self.p.fixed_view_mut::<6, 1>(0, beyond).copy_from(&with_own);
+            self.p
+                .fixed_view_mut::<1, 6>(beyond, 0)
+                .copy_from(&with_own.transpose());
+        }
+        self.p += noise;
     }
 
     /// Takes one row in.
@@ -59,14 +82,22 @@ impl<const D: usize> Member<D> {
     ///
     /// * returns: log-likelihood of the sample, without the part that all members share.
     pub(in crate::laws) fn update(&mut self, seen: &Seen) -> f64 {
-        seen.iter().map(|row| self.take(row).log_likelihood()).sum()
+        let mut likelihood = Likelihood::default();
+        seen.iter().for_each(|row| likelihood.add(&self.take(row)));
+        likelihood.log()
     }
 }
 
-impl<const D: usize> Taken<D> {
-    /// -1/2 (v^2 / s + ln s).
-    pub(super) fn log_likelihood(&self) -> f64 {
-        -0.5 * (self.innovation * self.innovation / self.s + self.s.ln())
+impl Likelihood {
+    /// Of one row more.
+    pub(super) fn add<const D: usize>(&mut self, taken: &Taken<D>) {
+        self.nis += taken.innovation * taken.innovation / taken.s;
+        self.det *= taken.s;
+    }
+
+    /// -1/2 (v' S^-1 v + ln det S).
+    pub(super) fn log(&self) -> f64 {
+        -0.5 * (self.nis + self.det.ln())
     }
 }
 

@@ -48,17 +48,17 @@ pub(in crate::laws) struct Mixture {
 }
 
 impl Mixture {
-    /// Adds a part with this weight, mean and covariance.
-    pub(in crate::laws) fn add(&mut self, weight: f64, mean: &Vector6<f64>, covariance: &Matrix6<f64>) {
-        self.add_second(weight, mean, covariance);
-        self.second.ger(weight, mean, mean, 1.0);
+    /// A mixture by its sums: of the weights, of the means times these, and of the second moments about zero times these.
+    pub(in crate::laws) fn of_sums(weight: f64, first: Vector6<f64>, second: Matrix6<f64>) -> Self {
+        Self { weight, first, second }
     }
 
-    /// Adds parts of this weight together, with this mean and this second moment about zero.
-    pub(in crate::laws) fn add_second(&mut self, weight: f64, mean: &Vector6<f64>, second: &Matrix6<f64>) {
+    /// Adds a part with this weight, mean and covariance.
+    pub(in crate::laws) fn add(&mut self, weight: f64, mean: &Vector6<f64>, covariance: &Matrix6<f64>) {
         self.weight += weight;
         self.first.axpy(weight, mean, 1.0);
-        self.second += second * weight;
+        self.second += covariance * weight;
+        self.second.ger(weight, mean, mean, 1.0);
     }
 
     /// Mean and covariance of all of it.
@@ -77,14 +77,14 @@ impl Mixture {
 mod tests {
     use super::*;
 
-    /// Two parts, by the formula for two; weights that do not sum to one, and the second part by its second moment.
+    /// Two parts, by the formula for two; weights that do not sum to one, and the first part by its sums.
     #[test]
     fn two_parts() {
         let means = [Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0), Vector6::repeat(-0.5)];
         let covariances = [Matrix6::identity() * 2.0, Matrix6::identity() * 0.3];
-        let mut mixture = Mixture::default();
-        mixture.add(3.0, &means[0], &covariances[0]);
-        mixture.add_second(1.0, &means[1], &(covariances[1] + means[1] * means[1].transpose()));
+        let about_zero = covariances[0] + means[0] * means[0].transpose();
+        let mut mixture = Mixture::of_sums(3.0, means[0] * 3.0, about_zero * 3.0);
+        mixture.add(1.0, &means[1], &covariances[1]);
         let Moments { mean, p } = mixture.moments();
         let apart = means[0] - means[1];
         let expected = covariances[0] * 0.75 + covariances[1] * 0.25 + apart * apart.transpose() * (0.75 * 0.25);

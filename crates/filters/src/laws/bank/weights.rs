@@ -4,25 +4,17 @@ use serde::{Deserialize, Serialize};
 
 /// Multiplies weights by likelihoods, and makes them sum to one.
 ///
-/// * `log_likelihoods`: one for each weight.
-pub(in crate::laws) fn reweigh(weights: &mut [f64], log_likelihoods: &[f64]) {
+/// Of a share e of the samples no member knows better than any other (Huber's contamination): L becomes (1 - e) L + e max L, so that
+/// no single sample makes one member more than 1 / e times as likely as another.
+///
+/// * `log_likelihoods`: one for each weight; `share`: e, between 0 and 1.
+pub(in crate::laws) fn reweigh(weights: &mut [f64], log_likelihoods: &[f64], share: f64) {
     let most = log_likelihoods.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     for (weight, log) in weights.iter_mut().zip(log_likelihoods) {
-        *weight *= (log - most).exp();
+        *weight *= (1.0 - share) * (log - most).exp() + share;
     }
     let sum: f64 = weights.iter().sum();
     weights.iter_mut().for_each(|weight| *weight /= sum);
-}
-
-/// Log-likelihoods where of a share e of the samples no member knows better than any other (Huber's contamination): L becomes
-/// (1 - e) L + e max L, so that no single sample makes one member more than 1 / e times as likely as another.
-///
-/// * `log_likelihoods`: one for each member.
-pub(in crate::laws) fn contaminate(log_likelihoods: &mut [f64], share: f64) {
-    let most = log_likelihoods.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    for log in log_likelihoods {
-        *log = most + ((1.0 - share) * (*log - most).exp() + share).ln();
-    }
 }
 
 /// Weights that likelihoods move and that slowly return to what they were.
@@ -50,12 +42,13 @@ impl Weights {
     /// Moves them over a step: mu <- [mu + (1 - exp(-dt / memory)) (prior - mu)] * likelihood.
     ///
     /// * `log_likelihoods`: of the sample, one for each member; all equal when nothing was measured.
-    pub(in crate::laws) fn update(&mut self, dt: f64, log_likelihoods: &[f64]) {
+    /// * `share`: of samples that say nothing, as in [`reweigh`].
+    pub(in crate::laws) fn update(&mut self, dt: f64, log_likelihoods: &[f64], share: f64) {
         let back = -(-dt / self.memory).exp_m1();
         for (now, prior) in self.now.iter_mut().zip(&self.prior) {
             *now += (prior - *now) * back;
         }
-        reweigh(&mut self.now, log_likelihoods);
+        reweigh(&mut self.now, log_likelihoods, share);
     }
 
     /// The weights, which sum to one.
@@ -72,32 +65,33 @@ mod tests {
     #[test]
     fn one_sample_makes_no_member_more_than_a_hundred_times_as_likely() {
         let likelihoods = [3.0_f64, 2.0, 0.4];
-        let mut logs = likelihoods.map(f64::ln);
-        contaminate(&mut logs, 0.01);
-        for (log, likelihood) in logs.iter().zip(likelihoods) {
-            assert!((log.exp() - (0.99 * likelihood + 0.03)).abs() < 1e-14);
+        let mut weights = [0.25, 0.25, 0.5];
+        reweigh(&mut weights, &likelihoods.map(f64::ln), 0.01);
+        let expected = [0.25 * 3.0, 0.25 * 2.01, 0.5 * 0.426];
+        for (weight, expected) in weights.iter().zip(expected) {
+            assert!((weight - expected / (0.75 + 0.5025 + 0.213)).abs() < 1e-15);
         }
-        let mut logs = [-1e4, -2e6];
-        contaminate(&mut logs, 0.01);
-        assert!((logs[0] + 1e4).abs() < 1e-11 && (logs[1] - (-1e4 + 0.01_f64.ln())).abs() < 1e-11);
-        let mut plain = [-1.0, -5.0];
-        contaminate(&mut plain, 0.0);
-        assert!((plain[0] + 1.0).abs() < 1e-15 && (plain[1] + 5.0).abs() < 1e-14);
+        let mut weights = [0.5, 0.5];
+        reweigh(&mut weights, &[-1e4, -2e6], 0.01);
+        assert!((weights[1] / weights[0] - 0.01).abs() < 1e-16);
+        let mut plain = [0.5, 0.5];
+        reweigh(&mut plain, &[-1.0, -5.0], 0.0);
+        assert!((plain[1] / plain[0] - (-4.0_f64).exp()).abs() < 1e-16);
     }
 
     #[test]
     fn weights_return_to_what_they_were() {
         let mut weights = Weights::new(&[3.0, 1.0], 10.0);
-        weights.update(0.0, &[0.0, 100.0]);
+        weights.update(0.0, &[0.0, 100.0], 0.0);
         assert!(weights.get()[0] < 1e-40);
-        (0..10).for_each(|_| weights.update(1.0, &[0.0, 0.0]));
+        (0..10).for_each(|_| weights.update(1.0, &[0.0, 0.0], 0.0));
         assert!((weights.get()[0] - 0.75 * (1.0 - (-1.0_f64).exp())).abs() < 1e-14);
         // In ten steps or in one.
         let mut at_once = Weights::new(&[3.0, 1.0], 10.0);
-        at_once.update(0.0, &[0.0, 100.0]);
-        at_once.update(10.0, &[0.0, 0.0]);
+        at_once.update(0.0, &[0.0, 100.0], 0.0);
+        at_once.update(10.0, &[0.0, 0.0], 0.0);
         assert!((weights.get()[0] - at_once.get()[0]).abs() < 1e-14);
-        (0..1000).for_each(|_| weights.update(1.0, &[0.0, 0.0]));
+        (0..1000).for_each(|_| weights.update(1.0, &[0.0, 0.0], 0.0));
         assert!((weights.get()[0] - 0.75).abs() < 1e-12);
     }
 }

@@ -53,7 +53,7 @@ pub(super) fn weights(evidence: &PerMember, bounds: &Bounds) -> Result<PerMember
 /// exp(L) over its sum: the maximum over the whole simplex.
 fn softmax(evidence: &PerMember) -> PerMember {
     let mut weights = [1.0; MEMBERS];
-    reweigh(&mut weights, evidence);
+    reweigh(&mut weights, evidence, 0.0);
     weights
 }
 

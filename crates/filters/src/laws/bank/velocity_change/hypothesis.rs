@@ -1,7 +1,7 @@
 //! One past time at which the velocity may have changed.
 
 use super::super::centre::{Shared, white};
-use super::super::member::{Member, Taken};
+use super::super::member::{Likelihood, Member, Taken};
 use super::super::rows::Row;
 use super::axes::Axes;
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
@@ -83,12 +83,16 @@ pub(super) struct Hypothesis {
     pub due: f64,
     /// What was expected.
     pub priors: Vec<Prior>,
-    /// Logarithm of the sum of rates times likelihoods, of the newest sample, 1/s.
-    pub ln_mass: f64,
+    /// Largest exponent of a likelihood, of the newest sample.
+    pub exponent: f64,
+    /// Sum of rates times likelihoods over the exponential of it, 1/s.
+    pub mass: f64,
     /// Logarithm of what "no change" weighs by now, for what has been folded into it since this one was opened.
     pub ln_base: f64,
     /// Axes at its time.
     pub axes: Axes,
+    /// Whether it is the first of all, to which what the start has left is a change, too.
+    pub first: bool,
 }
 
 /// A change whatever its prior: all of a hypothesis, by weight.
@@ -117,7 +121,7 @@ impl Part {
 }
 
 impl Hypothesis {
-    pub(super) fn new(due: f64, priors: Vec<Prior>, axes: Axes) -> Self {
+    pub(super) fn new(due: f64, priors: Vec<Prior>, axes: Axes, first: bool) -> Self {
         let mut e = Matrix6x3::zeros();
         e.fixed_view_mut::<3, 3>(3, 0).fill_with_identity();
         Self {
@@ -127,16 +131,18 @@ impl Hypothesis {
             age: 0.0,
             span: 0.0,
             due,
-            ln_mass: priors.iter().map(|prior| prior.rate).sum::<f64>().ln(),
+            exponent: 0.0,
+            mass: priors.iter().map(|prior| prior.rate).sum(),
             ln_base: 0.0,
             priors,
             axes,
+            first,
         }
     }
 
-    /// Logarithm of its weight against "no change".
-    pub(super) fn ln_weight(&self) -> f64 {
-        (self.span + self.due).ln() + self.ln_mass - self.ln_base
+    /// By what the mass is to be multiplied for its weight, where that of "no change" is exp(-`most`).
+    pub(super) fn factor(&self, most: f64) -> f64 {
+        (self.span + self.due) * (self.exponent - self.ln_base - most).exp()
     }
 
     /// The next one goes, and its time is this one's.
@@ -159,10 +165,11 @@ impl Hypothesis {
         self.e.ger(-1.0, &taken.gain, &g, 1.0);
     }
 
-    /// All priors together, given the data; their mass is noted.
+    /// All priors together, given the data; their mass is noted, to which the weights of the part sum.
     pub(super) fn weigh(&mut self) -> Part {
         let (mut top, mut sum, mut part) = (f64::NEG_INFINITY, 0.0, Part::default());
-        for prior in &self.priors {
+        // The largest of a kind comes last and has the largest exponent: begun with it, there is little to scale down.
+        for prior in self.priors.iter().rev() {
             let posterior = self.given(prior);
             if posterior.exponent > top {
                 let less = (top - posterior.exponent).exp();
@@ -178,8 +185,7 @@ impl Hypothesis {
                 part.second.ger(mass, &posterior.mean, &posterior.mean, 1.0);
             }
         }
-        self.ln_mass = top + sum.ln();
-        part.scale(1.0 / sum);
+        (self.exponent, self.mass) = (top, sum);
         part
     }
 
@@ -219,16 +225,16 @@ pub(super) fn predict(filter: &mut Member<6>, hypotheses: &mut [Hypothesis], sha
 ///
 /// * returns: its log-likelihood under the filter, as [`Member::update`] has it.
 pub(super) fn update(filter: &mut Member<6>, hypotheses: &mut [Hypothesis], shared: &Shared) -> f64 {
-    let mut log_likelihood = 0.0;
+    let mut likelihood = Likelihood::default();
     for row in shared.seen.iter() {
         let taken = filter.take(row);
-        log_likelihood += taken.log_likelihood();
+        likelihood.add(&taken);
         hypotheses
             .iter_mut()
             .for_each(|hypothesis| hypothesis.take(row, &taken));
     }
     shared.follow(filter);
-    log_likelihood
+    likelihood.log()
 }
 
 /// The other two of three places, in the order that makes cofactors of them.

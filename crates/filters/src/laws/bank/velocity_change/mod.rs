@@ -19,6 +19,7 @@ use axes::Axes;
 use directions::Directions;
 use hypothesis::{Hypothesis, NEGLIGIBLE, Part, SIZES};
 use nalgebra::{Matrix6, Vector6};
+use numerics::spd;
 use schedule::Schedule;
 use serde::{Deserialize, Serialize};
 use watched::{Watched, found};
@@ -26,7 +27,7 @@ use watched::{Watched, found};
 /// Sizes of a change, m/s.
 const CHANGES: [f64; SIZES] = [1e-4, 1e-3, 1e-2, 1e-1, 1.0];
 /// Changes of each size that are expected in [`PRIOR_TIME`] before any has been seen.
-const PRIOR_COUNT: [f64; SIZES] = [0.3, 0.06, 0.012, 0.0024, 0.00048];
+const PRIOR_COUNT: [f64; SIZES] = [0.15, 0.03, 0.006, 0.0012, 0.00024];
 /// Time after the first sample in which no change is looked for, s: the first estimate is too far off for the slopes that it is
 /// updated with, and what it leaves is none of the target's doing.
 const SETTLING: f64 = 30.0;
@@ -170,23 +171,22 @@ impl VelocityChanges {
 
     /// The quiet filter and every hypothesis, by their weights.
     pub(in crate::laws) fn mixture(&self) -> Mixture {
-        let mut mixture = Mixture::default();
-        mixture.add(self.weighed.quiet, &self.quiet.dx, &self.quiet.p);
+        let Member { dx, p } = &self.quiet;
+        // What hypotheses add, as if the quiet filter's mean were zero.
+        let (mut weight, mut off, mut spread) = (self.weighed.quiet, Vector6::zeros(), Matrix6::zeros());
         for (hypothesis, part) in self.open.iter().zip(&self.weighed.parts) {
-            let weight = part.weight();
-            if weight > NEGLIGIBLE {
-                let off = hypothesis.e * part.first / weight;
-                let mean = self.quiet.dx + off;
-                let spread = hypothesis.e * (part.second / weight) * hypothesis.e.transpose();
-                // About zero: the quiet filter's own, and off as if the quiet filter's mean were zero.
-                let mut second = self.quiet.p + spread;
-                second.ger(1.0, &self.quiet.dx, &self.quiet.dx, 1.0);
-                second.ger(1.0, &self.quiet.dx, &off, 1.0);
-                second.ger(1.0, &off, &self.quiet.dx, 1.0);
-                mixture.add_second(weight, &mean, &second);
+            let of_part = part.weight();
+            if of_part > NEGLIGIBLE {
+                weight += of_part;
+                off += hypothesis.e * part.first;
+                spread += spd::carried(&hypothesis.e, &part.second).1;
             }
         }
-        mixture
+        let mut second = p * weight + spread;
+        second.ger(weight, dx, dx, 1.0);
+        second.ger(1.0, dx, &off, 1.0);
+        second.ger(1.0, &off, dx, 1.0);
+        Mixture::of_sums(weight, dx * weight + off, second)
     }
 
     /// Deviations are from another mean now.
@@ -197,10 +197,19 @@ impl VelocityChanges {
 
     /// Logarithm of the sum of all weights, "no change" being 1, with what the data have said so far.
     fn ln_total(&self) -> f64 {
-        let all = || self.open.iter().map(Hypothesis::ln_weight);
-        let most = all().fold(0.0, f64::max);
-        let sum: f64 = all().map(|ln_weight| (ln_weight - most).exp()).sum();
+        let most = self.most();
+        let weight = |hypothesis: &Hypothesis| hypothesis.mass * hypothesis.factor(most);
+        let sum: f64 = self.open.iter().map(weight).sum();
         most + ((-most).exp() + sum).ln()
+    }
+
+    /// Largest exponent of a weight, "no change" having 0.
+    fn most(&self) -> f64 {
+        let exponents = self
+            .open
+            .iter()
+            .map(|hypothesis| hypothesis.exponent - hypothesis.ln_base);
+        exponents.fold(0.0, f64::max)
     }
 
     /// What the data now say of every hypothesis.
@@ -208,12 +217,17 @@ impl VelocityChanges {
         self.weighed.parts.clear();
         let parts = self.open.iter_mut().map(Hypothesis::weigh);
         self.weighed.parts.extend(parts);
-        let ln_total = self.ln_total();
-        self.weighed.ln_total = ln_total;
-        self.weighed.quiet = (-ln_total).exp();
+        let most = self.most();
+        let quiet = (-most).exp();
+        let mut total = quiet;
         for (part, hypothesis) in self.weighed.parts.iter_mut().zip(&self.open) {
-            part.scale((hypothesis.ln_weight() - ln_total).exp());
+            let factor = hypothesis.factor(most);
+            total += hypothesis.mass * factor;
+            part.scale(factor);
         }
+        self.weighed.parts.iter_mut().for_each(|part| part.scale(1.0 / total));
+        self.weighed.ln_total = most + total.ln();
+        self.weighed.quiet = quiet / total;
     }
 
     /// The mixture takes the place of the quiet filter.
@@ -225,15 +239,16 @@ impl VelocityChanges {
         let mut open = std::mem::take(&mut self.open);
         self.remember_time(&open, &parts);
         let mut weights = [0.0; SIZES];
-        for part in &parts {
+        for (hypothesis, part) in open.iter().zip(&parts) {
+            self.count(hypothesis, part);
             weights
                 .iter_mut()
                 .zip(&part.weights)
                 .for_each(|(sum, weight)| *sum += weight);
         }
-        self.count(&weights);
         let likeliest = (0..parts.len()).max_by(|a, b| parts[*a].weight().total_cmp(&parts[*b].weight()));
-        if let Some(place) = likeliest.filter(|_| self.directions.is_some()) {
+        let tells = |place: &usize| self.directions.is_some() && !open[*place].first;
+        if let Some(place) = likeliest.filter(tells) {
             self.watched = Some(Watched::new(self.quiet.clone(), open.swap_remove(place), weights));
         }
         self.quiet = Member { dx: mean, p };
@@ -292,8 +307,13 @@ impl VelocityChanges {
         }
     }
 
-    fn count(&mut self, weights: &[f64; SIZES]) {
-        for (found, weight) in self.found.iter_mut().zip(weights) {
+    /// Counts a change, but for one of the start: an outlier among the first samples, which nothing tells from the others, leaves the
+    /// estimate far off, and with the rate that would follow from it noise alone would pass for changes.
+    fn count(&mut self, hypothesis: &Hypothesis, part: &Part) {
+        if hypothesis.first {
+            return;
+        }
+        for (found, weight) in self.found.iter_mut().zip(&part.weights) {
             *found += weight;
         }
     }
@@ -324,14 +344,14 @@ impl VelocityChanges {
         }
         let part = self.weighed.parts.remove(0);
         let weight = part.weight();
-        if weight > LEAST_LEARNT {
+        if weight > LEAST_LEARNT && !oldest.first {
             self.remember_time(std::slice::from_ref(&oldest), std::slice::from_ref(&part));
             if let Some(directions) = &mut self.directions {
                 directions.learn(&found(&oldest, &part.weights));
             }
         }
         if weight > NEGLIGIBLE {
-            self.count(&part.weights);
+            self.count(&oldest, &part);
             let by = oldest.e * part.first;
             self.quiet.dx += by;
             self.quiet.p += oldest.e * part.second * oldest.e.transpose();
@@ -364,7 +384,8 @@ impl VelocityChanges {
             schedule.expected(elapsed + spacing(0.0) / 2.0, spacing(0.0), self.window)
         });
         let due = expected / rates.iter().sum::<f64>();
-        self.open.push(Hypothesis::new(due, priors, axes));
+        let first = self.since.is_infinite();
+        self.open.push(Hypothesis::new(due, priors, axes, first));
         self.weighed.parts.push(Part::default());
         self.since = 0.0;
     }
@@ -402,6 +423,8 @@ mod tests {
             &Units::of(&units),
         );
         changes.elapsed = Some(SETTLING);
+        // As if the first hypothesis had long gone.
+        changes.since = spacing(0.0);
         for i in 0..6 {
             changes.quiet.p[(i, i)] = if i < 3 { 1.0 } else { 1e-4 };
         }
@@ -612,7 +635,34 @@ mod tests {
         changes.take(&step_of(g, 600.0));
         let oldest = &changes.open[0];
         assert!((oldest.age - newest - 600.0).abs() < TICK && (oldest.span - oldest.age).abs() < TICK);
-        assert!(oldest.ln_weight() > -20.0 && changes.weighed.parts[0].weight() > 1e-9);
+        assert!(changes.weighed.parts[0].weight() > 1e-9);
+    }
+
+    /// Innovations of a velocity that is off by 0.5 m/s: a change to the first hypothesis as to any other, and decided alike, but no
+    /// news of what the target does.
+    #[test]
+    fn what_the_start_has_left_is_not_counted() {
+        let g = &mut stream(16, 0, Source::Lidar);
+        for (since, counted) in [(f64::INFINITY, false), (spacing(0.0), true)] {
+            let mut changes = changes();
+            changes.since = since;
+            changes.take(&step(g));
+            assert_eq!(changes.open[0].first, !counted);
+            let mut off = 0.0;
+            while changes.decisions() == 0 {
+                off += 0.5 / changes.speed;
+                assert!(off < 30.0 / changes.speed, "it is never decided");
+                let Shared { dt, f, seen, .. } = step(g);
+                let rows: Vec<Row> = seen.iter().copied().collect();
+                let moved: [Row; 3] = std::array::from_fn(|i| Row {
+                    innovation: rows[i].innovation + if i == 0 { off } else { 0.0 },
+                    ..rows[i]
+                });
+                changes.take(&Shared::of(dt, f, Seen::of(&moved)));
+            }
+            assert_eq!(changes.found.iter().sum::<f64>() > 0.9, counted, "{:?}", changes.found);
+            assert_eq!(changes.watched.is_some(), counted);
+        }
     }
 
     /// A minute in which nothing is seen of the target is no time in which the first estimate settles.
