@@ -94,7 +94,7 @@ beliefs! {
     divergence_nis: Real(f64) = 100.0, "divergence.nis", "1", Positive, "the filter calls itself diverged when the running mean of NIS over its rows exceeds this";
     editing_mode: Integer(i32) = -1, "editing.mode", "", AtLeast(-1.0), "whether samples that are most likely outliers are passed by: 1 yes, 0 no, -1 as the filter has it (those that reproduce a paper do not)";
     editing_outlier_share: Real(f64) = 0.01, "editing.outlier_share", "1", Positive, "share of outliers, of ten times the noise, that it reckons with; below one half";
-    editing_most_in_a_row: Integer(i32) = 3, "editing.most_in_a_row", "", AtLeast(0.0), "most samples of a sensor that are passed by one after the other; twice as many where each says something else than the one before";
+    editing_most_in_a_row: Integer(i32) = 3, "editing.most_in_a_row", "", AtLeast(0.0), "most samples of a sensor that are passed by one after the other; twice as many where those beyond it disagree with those before";
     accelerometer_noise_enters: Integer(i32) = -1, "accelerometer.noise_enters", "", AtLeast(-1.0), "whether the noise of a reading of the instant enters the covariance while it drives the propagation, as that of a mean always does: 1 yes, 0 no, -1 as the filter has it (those that reproduce a paper do not)";
     divergence_samples: Integer(i32) = 60, "divergence.samples", "", AtLeast(1.0), "time constant of that running mean, samples";
 }

@@ -11,8 +11,9 @@
 //!   There are four of them, or as many as are fresh and have come since the last suspect; where none is, only what is beyond all
 //!   bounds is passed by;
 //! * where the filter's record speaks for it: of the sensor's last samples at most a third were suspected;
-//! * not more than a few times in a row, and then not again until a sample fits. Where a filter has lost its way, suspects say the same,
-//!   and outliers do not: one that stands out from the suspect before it, too, is passed by for as long again.
+//! * not more than a few times in a row, and then not again until a sample fits. Where a filter has lost its way, suspects lie on a line,
+//!   and outliers do not: one that stands out from the line through the two before it is passed by, too, for as long again. Where
+//!   anything else was used meanwhile, the filter has moved, and there is no line.
 //!
 //! Without a record, at the start above all, only what is beyond all bounds and far from the measurement before is passed by.
 
@@ -48,7 +49,7 @@ const MOST: usize = Sensor::MOST_ROWS;
 pub(crate) struct Editing {
     /// Share of outliers that is reckoned with; `None` where none are looked for.
     share: Option<f64>,
-    /// Most samples of a sensor that are passed by one after the other.
+    /// Most samples of a sensor that are passed by one after the other; twice as many where they disagree.
     most: i32,
     watched: [Watched; Sensor::COUNT],
     /// Whether the mission has an accelerometer.
@@ -67,19 +68,19 @@ struct Watched {
     suspected: u32,
     /// Samples passed by since the last that fitted.
     in_a_row: i32,
-    /// The last that was passed by; nothing was taken of it.
-    passed: Option<Used>,
+    /// The last two that were passed by since anything was used, the newest first.
+    passed: [Option<Past>; 2],
     /// The last that were not passed by, the newest first.
-    used: [Option<Used>; BEFORE],
+    used: [Option<Past>; BEFORE],
 }
 
-/// A sample that was used.
+/// A sample that was used or passed by.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-struct Used {
+struct Past {
     time_s: f64,
     /// What was measured, SI.
     z: Rows,
-    /// What it left: measured less what the estimate after it says, internal units.
+    /// What it left: measured less what the estimate after it says, which one that is passed by does not move; internal units.
     left: Rows,
 }
 
@@ -90,7 +91,7 @@ impl Watched {
             period_s,
             suspected: (1 << RECORD) - 1,
             in_a_row: 0,
-            passed: None,
+            passed: [None; 2],
             used: [None; BEFORE],
         }
     }
@@ -101,7 +102,7 @@ impl Watched {
     }
 
     /// Whether a sample still says something of the one that comes at this time.
-    fn is_fresh(&self, used: &Used, time_s: f64) -> bool {
+    fn is_fresh(&self, used: &Past, time_s: f64) -> bool {
         time_s - used.time_s <= FRESH * self.period_s + TICK
     }
 
@@ -115,9 +116,21 @@ impl Watched {
         (count > 0.0).then(|| (sum / count, 1.0 / count))
     }
 
+    /// What a filter that has lost its way would leave now, on the line through what the last two that were passed by have left, and
+    /// the variance of that over the variance of one; `None` where there are no two that are fresh.
+    fn astray(&self, time_s: f64) -> Option<(Rows, f64)> {
+        let [Some(newer), Some(older)] = self.passed else {
+            return None;
+        };
+        let on = (time_s - newer.time_s) / (newer.time_s - older.time_s);
+        let left = newer.left + (newer.left - older.left) * on;
+        self.is_fresh(&older, time_s)
+            .then_some((left, (1.0 + on).powi(2) + on * on))
+    }
+
     /// Takes note of a sample that was used. A suspect that is used speaks of a filter that has begun to lag, and what the samples
     /// before it have left says nothing of what it will be off by next.
-    fn remember(&mut self, last: Used) {
+    fn remember(&mut self, last: Past) {
         if self.suspected & 1 == 1 {
             self.used = [None; BEFORE];
         }
@@ -125,9 +138,10 @@ impl Watched {
         self.used[0] = Some(last);
     }
 
-    /// Whether a measurement is far from the last one used, whatever a filter thinks of either.
-    fn is_far(&self, z: &Rows, sensor: Sensor) -> bool {
-        self.used[0].is_some_and(|used| {
+    /// Whether a measurement is far from the last one used, if that is fresh, whatever a filter thinks of either.
+    fn is_far(&self, z: &Rows, sensor: Sensor, time_s: f64) -> bool {
+        let fresh = self.used[0].filter(|used| self.is_fresh(used, time_s));
+        fresh.is_some_and(|used| {
             let mut rows = sensor.quantities().enumerate().take(MOST);
             rows.any(|(row, quantity)| {
                 wrapped(z[row] - used.z[row], quantity).abs() > GROSS * 2.0_f64.sqrt() * self.sigma[row]
@@ -138,7 +152,8 @@ impl Watched {
 
 impl Editing {
     /// * `share`: of outliers, between 0 and 1; `None` to look for none.
-    /// * `most`: samples of a sensor that may be passed by one after the other.
+    /// * `most`: samples of a sensor that may be passed by one after the other; twice as many where those beyond it disagree with those
+    ///   before.
     /// * `told`: the mission, what a user believes included.
     pub(crate) fn new(share: Option<f64>, most: i32, told: &Navigation) -> Self {
         let mut watched = [Watched::new(Rows::zeros(), f64::INFINITY); Sensor::COUNT];
@@ -225,26 +240,22 @@ impl Editing {
             let suspect = outlier || gross;
             // That outliers are rare has been counted already.
             let stands_out = |from: &(Rows, f64)| Seen::change(step, rows.clone(), from, r).is_outlier(0.0);
-            let most = match &watched.passed {
-                Some(passed) if watched.is_fresh(passed, sample.time) && stands_out(&(passed.left, 1.0)) => {
-                    2 * self.most
-                }
-                _ => self.most,
-            };
+            let disagrees = || watched.astray(sample.time).is_some_and(|left| stands_out(&left));
             let doubted = suspect
-                && watched.in_a_row < most
+                && (watched.in_a_row < self.most || (watched.in_a_row < self.most.saturating_mul(2) && disagrees()))
                 && if watched.has_fitted() {
                     watched.left(sample.time).map_or(gross, |left| stands_out(&left))
                 } else {
-                    gross && watched.is_far(&z, sensor)
+                    gross && watched.is_far(&z, sensor, sample.time)
                 };
             watched.suspected = (watched.suspected << 1 | u32::from(suspect)) & ((1 << RECORD) - 1);
             if doubted {
                 watched.in_a_row += 1;
-                watched.passed = Some(Used {
+                watched.passed.rotate_right(1);
+                watched.passed[0] = Some(Past {
                     time_s: sample.time,
                     z,
-                    left: Seen::new(step, rows, None, r).innovation,
+                    left: innovation(step, rows),
                 });
                 self.outliers += 1;
                 found.push(sensor);
@@ -269,11 +280,13 @@ impl Editing {
                 for (left, row) in left.iter_mut().zip(rows) {
                     *left = step.innovation[row] - (step.h.row(row) * moved)[0];
                 }
-                let last = Used {
+                let last = Past {
                     time_s: sample.time,
                     z,
                     left,
                 };
+                // The estimate has moved, and with it what suspects of any sensor have left.
+                self.watched.iter_mut().for_each(|watched| watched.passed = [None; 2]);
                 self.watched[sensor as usize].remember(last);
             }
         }
@@ -291,12 +304,11 @@ struct Seen {
 impl Seen {
     fn new(step: &Step, rows: Range<usize>, excess: Option<&Matrix6<f64>>, r: &RowVector) -> Self {
         let mut seen = Self {
-            innovation: SVector::zeros(),
+            innovation: innovation(step, rows.clone()),
             s: SMatrix::identity(),
             more: SMatrix::zeros(),
         };
         for (i, row) in rows.clone().enumerate().take(MOST) {
-            seen.innovation[i] = step.innovation[row];
             seen.more[(i, i)] = MORE * r[row];
             for (j, column) in rows.clone().enumerate().take(MOST) {
                 seen.s[(i, j)] = step.s[(row, column)];
@@ -309,17 +321,16 @@ impl Seen {
         seen
     }
 
-    /// What has changed since the last samples used, if the filter's motion is right: the noise of this one and of their mean.
+    /// What has changed since the last samples used, or against the line through the last suspects, if the filter's motion is right: the noise of this one and of their mean.
     ///
     /// * `left`: as [`Watched::left`].
     fn change(step: &Step, rows: Range<usize>, (left, share): &(Rows, f64), r: &RowVector) -> Self {
         let mut seen = Self {
-            innovation: SVector::zeros(),
+            innovation: innovation(step, rows.clone()) - left,
             s: SMatrix::identity(),
             more: SMatrix::zeros(),
         };
         for (i, row) in rows.enumerate().take(MOST) {
-            seen.innovation[i] = step.innovation[row] - left[i];
             seen.s[(i, i)] = (1.0 + share) * r[row];
             seen.more[(i, i)] = MORE * r[row];
         }
@@ -348,6 +359,16 @@ impl Seen {
         let mut rows = self.innovation.iter().zip(&variances);
         rows.any(|(v, s)| v.abs() > GROSS * s.sqrt())
     }
+}
+
+/// Innovation of the rows of one sensor; zeros beyond them.
+fn innovation(step: &Step, rows: Range<usize>) -> Rows {
+    let mut of_sensor = Rows::zeros();
+    of_sensor
+        .iter_mut()
+        .zip(rows)
+        .for_each(|(to, row)| *to = step.innovation[row]);
+    of_sensor
 }
 
 /// An angle's difference, turned to within half a turn; any other difference as it is.
@@ -382,7 +403,7 @@ mod tests {
         let mut editing = Editing::new(share, 3, &told);
         editing.watched[LIDAR] = Watched::new(Rows::repeat(1.0), 1.0);
         editing.watched[LIDAR].suspected = 0;
-        editing.watched[LIDAR].used[0] = Some(Used {
+        editing.watched[LIDAR].used[0] = Some(Past {
             time_s: 0.0,
             z: Rows::zeros(),
             left: Rows::zeros(),
@@ -415,9 +436,9 @@ mod tests {
 
     /// * `z`: the range that is measured.
     /// * `v`: by how much it is off.
-    fn finds_at(editing: &mut Editing, z: f64, v: f64, excess: Option<&Matrix6<f64>>) -> bool {
+    fn finds_at(editing: &mut Editing, time_s: f64, z: f64, v: f64, excess: Option<&Matrix6<f64>>) -> bool {
         let layout = Layout::new(&[Sensor::Lidar]);
-        let sample = ranged(1.0, z);
+        let sample = ranged(time_s, z);
         let (step, r) = (step(v), RowVector::repeat(1.0));
         let found = editing.find(&sample, &step, 0.5 * v * v, || excess.copied(), layout, &r);
         if found.is_empty() {
@@ -428,7 +449,7 @@ mod tests {
     }
 
     fn finds(editing: &mut Editing, v: f64, excess: Option<&Matrix6<f64>>) -> bool {
-        finds_at(editing, 1000.0, v, excess)
+        finds_at(editing, 1.0, 1000.0, v, excess)
     }
 
     /// Three rows, of which one is off by v: -v^2 / 4 - 3/2 ln 2 against -v^2 / 202 - 3/2 ln 101, and odds of 99.
@@ -520,8 +541,12 @@ mod tests {
         ] {
             let mut editing = start();
             // There is nothing before the first.
-            assert!(!finds_at(&mut editing, 1000.0, 1e6, None));
-            assert_eq!(finds_at(&mut editing, 1000.0 + moved, v, None), doubted, "{v} {moved}");
+            assert!(!finds_at(&mut editing, 1.0, 1000.0, 1e6, None));
+            assert_eq!(
+                finds_at(&mut editing, 1.0, 1000.0 + moved, v, None),
+                doubted,
+                "{v} {moved}"
+            );
         }
     }
 
@@ -540,15 +565,22 @@ mod tests {
     /// Suspects that say the same, and suspects of which each says something else.
     #[test]
     fn not_more_than_three_in_a_row_are_passed_by_or_six_that_disagree() {
-        let mut editing = settled(Some(0.01));
-        let each: Vec<bool> = (0..9)
-            .map(|k| finds(&mut editing, if k % 2 == 0 { 30.0 } else { -40.0 }, None))
-            .collect();
-        assert_eq!(each, [true, true, true, true, true, true, false, false, false]);
+        let each = |v: &dyn Fn(f64) -> f64| {
+            let mut editing = settled(Some(0.01));
+            let at = |k| finds_at(&mut editing, f64::from(k), 1000.0, v(f64::from(k)), None);
+            (1..=9).map(at).collect::<Vec<bool>>()
+        };
+        let outliers = each(&|t| if t % 2.0 > 0.5 { 30.0 } else { -40.0 });
+        assert_eq!(outliers, [true, true, true, true, true, true, false, false, false]);
+        // Off by a place, or by a velocity.
+        for astray in [each(&|_| 30.0), each(&|t| 20.0 + 10.0 * t)] {
+            assert_eq!(astray, [true, true, true, false, false, false, false, false, false]);
+        }
         let mut editing = settled(Some(0.01));
         let mut found = |v: f64| finds(&mut editing, v, None);
-        let off: Vec<bool> = (0..6).map(|_| found(30.0)).collect();
-        assert_eq!(off, [true, true, true, false, false, false]);
+        assert_eq!([30.0; 4].map(&mut found), [true, true, true, false]);
+        // One that is used ends the row, whatever the next one says.
+        assert!(!found(-40.0));
         // One that fits, and the filter may doubt again.
         assert!(!found(0.5) && found(30.0));
         assert_eq!(editing.outliers(), 4);

@@ -132,13 +132,12 @@ pub struct Navigator {
     untold: Option<Untold>,
 }
 
-/// Epochs of the accelerometer alone, as one: their length, transition and corrections of the target's nine states.
+/// Epochs of the accelerometer alone, as one: their length, transition and correction of the target's nine states.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Between {
     dt: f64,
     f: TargetMatrix,
     correction: Target,
-    linear: Target,
 }
 
 impl Between {
@@ -149,13 +148,11 @@ impl Between {
                 dt: step.dt,
                 f: step.f,
                 correction: step.correction,
-                linear: step.linear,
             },
             Some(before) => Self {
                 dt: before.dt + step.dt,
                 f: step.f * before.f,
                 correction: step.f * before.correction + step.correction,
-                linear: step.f * before.linear + step.linear,
             },
         }
     }
@@ -327,7 +324,7 @@ impl Navigator {
         let mut moved = step.correction;
         if due {
             (step.dt, step.f) = (whole.dt, whole.f);
-            (step.correction, step.linear) = (whole.correction, whole.linear);
+            step.correction = whole.correction;
             self.law.observe(&step)?;
             if let Some(own) = self.law.replacement() {
                 estimator.shift(&own.shift);

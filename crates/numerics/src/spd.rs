@@ -32,8 +32,8 @@ pub fn over<const R: usize, const N: usize>(b: &SMatrix<f64, R, N>, l: &SMatrix<
 
 /// F P and F P F^T, a covariance P taken through a linear map F.
 ///
-/// Whole columns are worked on, in loops whose lengths are known, and one triangle is computed and mirrored: the second product is
-/// symmetric to the bit.
+/// Whole columns are worked on, in loops whose lengths are known. The lower triangle of the second product is mirrored, which is
+/// therefore symmetric to the bit.
 ///
 /// * `f`: R x N; `p`: N x N, symmetric.
 pub fn carried<const R: usize, const N: usize>(
@@ -45,8 +45,8 @@ pub fn carried<const R: usize, const N: usize>(
         let column = &mut fp.data.0[j];
         for k in 0..N {
             let factor = p.data.0[j][k];
-            for i in 0..R {
-                column[i] += f.data.0[k][i] * factor;
+            for (sum, from) in column.iter_mut().zip(&f.data.0[k]) {
+                *sum += from * factor;
             }
         }
     }
@@ -54,8 +54,8 @@ pub fn carried<const R: usize, const N: usize>(
         let column = &mut fpf.data.0[j];
         for k in 0..N {
             let factor = f.data.0[k][j];
-            for i in 0..R {
-                column[i] += fp.data.0[k][i] * factor;
+            for (sum, from) in column.iter_mut().zip(&fp.data.0[k]) {
+                *sum += from * factor;
             }
         }
     }
@@ -85,6 +85,9 @@ mod tests {
         assert!((fp - f * p).amax() < 1e-13, "{fp}");
         assert!((fpf - f * p * f.transpose()).amax() < 1e-12, "{fpf}");
         assert_eq!(fpf, fpf.transpose());
+        let wide = f.fixed_rows::<2>(1).into_owned();
+        let (fp, fpf) = carried(&wide, &p);
+        assert!((fp - wide * p).amax() < 1e-13 && (fpf - wide * p * wide.transpose()).amax() < 1e-12);
     }
 
     #[test]

@@ -30,7 +30,7 @@ pub struct Step {
     pub log_likelihood: f64,
     /// What the update, accelerometer rows included, added to the target's nine states.
     pub correction: Target,
-    /// The part of it that the first pass of the update made: the gain at the predicted state times the innovation.
+    /// The part of it that the first pass of the update of this epoch made: the gain at the predicted state times the innovation.
     pub linear: Target,
     /// Covariance of the target's nine states before the update, 9x9; zero without a covariance.
     pub p_prior: TargetMatrix,

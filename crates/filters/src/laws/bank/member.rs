@@ -25,13 +25,12 @@ pub(super) struct Taken<const D: usize> {
     pub s: f64,
 }
 
-/// Likelihood of a sample while its rows are taken, without the part that all members share. One logarithm for all rows: the
-/// determinant of thirteen is far from overflow in any units.
+/// Likelihood of a sample while its rows are taken, without the part that all members share. One logarithm for all rows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Likelihood {
     /// Normalised innovation squared.
     nis: f64,
-    /// Determinant of the innovation covariance.
+    /// Determinant of the innovation covariance over that of the noise: free of units, and no factor below one.
     det: f64,
 }
 
@@ -83,19 +82,20 @@ impl<const D: usize> Member<D> {
     /// * returns: log-likelihood of the sample, without the part that all members share.
     pub(in crate::laws) fn update(&mut self, seen: &Seen) -> f64 {
         let mut likelihood = Likelihood::default();
-        seen.iter().for_each(|row| likelihood.add(&self.take(row)));
+        seen.iter().for_each(|row| likelihood.add(row, &self.take(row)));
         likelihood.log()
     }
 }
 
 impl Likelihood {
     /// Of one row more.
-    pub(super) fn add<const D: usize>(&mut self, taken: &Taken<D>) {
+    pub(super) fn add<const D: usize>(&mut self, row: &Row, taken: &Taken<D>) {
         self.nis += taken.innovation * taken.innovation / taken.s;
-        self.det *= taken.s;
+        // Two negative ones must not pass for a likelihood.
+        self.det *= if taken.s > 0.0 { taken.s / row.r } else { f64::NAN };
     }
 
-    /// -1/2 (v' S^-1 v + ln det S).
+    /// -1/2 (v' S^-1 v + ln (det S / det R)).
     pub(super) fn log(&self) -> f64 {
         -0.5 * (self.nis + self.det.ln())
     }
@@ -145,9 +145,36 @@ mod tests {
         let (_, expected) = kalman::update(&mut dense, &measurement, 0..0)
             .unwrap()
             .of_leading(&innovation, 3);
-        let log_likelihood = member.update(&Seen::of(&rows)) - 1.5 * (2.0 * std::f64::consts::PI).ln();
+        let shared: f64 = rows.iter().map(|row| (2.0 * std::f64::consts::PI * row.r).ln()).sum();
+        let log_likelihood = member.update(&Seen::of(&rows)) - 0.5 * shared;
         assert!((member.dx - dense.x).amax() < 1e-12);
         assert!((member.p - dense.p).amax() < 1e-12);
         assert!((log_likelihood - expected).abs() < 1e-12);
+    }
+
+    /// By the dense products of nine states.
+    #[test]
+    fn what_is_beyond_position_and_velocity_is_held() {
+        let g = &mut stream(4, 0, Source::Lidar);
+        let root = SMatrix::<f64, 9, 9>::from_fn(|_, _| normal(g));
+        let mut member = Member::<9> {
+            dx: SVector::from_fn(|_, _| normal(g)),
+            p: root * root.transpose(),
+        };
+        let (dx, p) = (member.dx, member.p);
+        let f = SMatrix::<f64, 6, 9>::from_fn(|_, _| normal(g));
+        let mut dense = SMatrix::<f64, 9, 9>::identity();
+        dense.fixed_view_mut::<6, 9>(0, 0).copy_from(&f);
+        let (noise, common) = (SMatrix::identity() * 0.3, Matrix6::from_diagonal_element(0.2));
+        let mut expected = dense * p * dense.transpose() + noise;
+        let mut own = expected.fixed_view_mut::<6, 6>(0, 0);
+        own += common;
+        member.predict(&f, &noise, &common);
+        assert!((member.dx - dense * dx).amax() < 1e-13);
+        assert!(
+            (member.p - expected).amax() < 1e-12 * expected.amax(),
+            "{}",
+            member.p - expected
+        );
     }
 }

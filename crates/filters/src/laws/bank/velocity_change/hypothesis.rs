@@ -91,7 +91,9 @@ pub(super) struct Hypothesis {
     pub ln_base: f64,
     /// Axes at its time.
     pub axes: Axes,
-    /// Whether it is the first of all, to which what the start has left is a change, too.
+    /// Whether it is the first of all, to which what the start has left is a change, too: nothing is learnt from it. An outlier among
+    /// the first samples, which nothing tells from the others, leaves the estimate far off; were that counted, noise would pass for
+    /// changes from then on. A change of the target's in the time for which it stands goes uncounted with it.
     pub first: bool,
 }
 
@@ -140,9 +142,9 @@ impl Hypothesis {
         }
     }
 
-    /// By what the mass is to be multiplied for its weight, where that of "no change" is exp(-`most`).
-    pub(super) fn factor(&self, most: f64) -> f64 {
-        (self.span + self.due) * (self.exponent - self.ln_base - most).exp()
+    /// By what the mass is to be multiplied for its weight, where that of "no change" is exp(-`ln_scale`).
+    pub(super) fn factor(&self, ln_scale: f64) -> f64 {
+        (self.span + self.due) * (self.exponent - self.ln_base - ln_scale).exp()
     }
 
     /// The next one goes, and its time is this one's.
@@ -169,7 +171,7 @@ impl Hypothesis {
     pub(super) fn weigh(&mut self) -> Part {
         let (mut top, mut sum, mut part) = (f64::NEG_INFINITY, 0.0, Part::default());
         // The largest of a kind comes last and has the largest exponent: begun with it, there is little to scale down.
-        for prior in self.priors.iter().rev() {
+        for prior in self.priors.iter().rev().filter(|prior| prior.rate > 0.0) {
             let posterior = self.given(prior);
             if posterior.exponent > top {
                 let less = (top - posterior.exponent).exp();
@@ -228,7 +230,7 @@ pub(super) fn update(filter: &mut Member<6>, hypotheses: &mut [Hypothesis], shar
     let mut likelihood = Likelihood::default();
     for row in shared.seen.iter() {
         let taken = filter.take(row);
-        likelihood.add(&taken);
+        likelihood.add(row, &taken);
         hypotheses
             .iter_mut()
             .for_each(|hypothesis| hypothesis.take(row, &taken));

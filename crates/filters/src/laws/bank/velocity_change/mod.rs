@@ -84,7 +84,7 @@ pub(in crate::laws) struct VelocityChanges {
     watched: Option<Watched>,
     /// Time since something was measured first, s; `None` before.
     elapsed: Option<f64>,
-    /// Time since the last was opened, s.
+    /// Time since the last was opened, s; infinite before the first.
     since: f64,
     decisions: i32,
     /// Weights, means and second moments of the hypotheses; of the newest sample.
@@ -197,19 +197,11 @@ impl VelocityChanges {
 
     /// Logarithm of the sum of all weights, "no change" being 1, with what the data have said so far.
     fn ln_total(&self) -> f64 {
-        let most = self.most();
+        let exponent = |hypothesis: &Hypothesis| hypothesis.exponent - hypothesis.ln_base;
+        let most = self.open.iter().map(exponent).fold(0.0, f64::max);
         let weight = |hypothesis: &Hypothesis| hypothesis.mass * hypothesis.factor(most);
         let sum: f64 = self.open.iter().map(weight).sum();
         most + ((-most).exp() + sum).ln()
-    }
-
-    /// Largest exponent of a weight, "no change" having 0.
-    fn most(&self) -> f64 {
-        let exponents = self
-            .open
-            .iter()
-            .map(|hypothesis| hypothesis.exponent - hypothesis.ln_base);
-        exponents.fold(0.0, f64::max)
     }
 
     /// What the data now say of every hypothesis.
@@ -217,40 +209,38 @@ impl VelocityChanges {
         self.weighed.parts.clear();
         let parts = self.open.iter_mut().map(Hypothesis::weigh);
         self.weighed.parts.extend(parts);
-        let most = self.most();
-        let quiet = (-most).exp();
-        let mut total = quiet;
+        let ln_total = self.ln_total();
+        self.weighed.ln_total = ln_total;
+        self.weighed.quiet = (-ln_total).exp();
         for (part, hypothesis) in self.weighed.parts.iter_mut().zip(&self.open) {
-            let factor = hypothesis.factor(most);
-            total += hypothesis.mass * factor;
-            part.scale(factor);
+            part.scale(hypothesis.factor(ln_total));
         }
-        self.weighed.parts.iter_mut().for_each(|part| part.scale(1.0 / total));
-        self.weighed.ln_total = most + total.ln();
-        self.weighed.quiet = quiet / total;
     }
 
-    /// The mixture takes the place of the quiet filter.
+    /// The mixture takes the place of the quiet filter. Of a change at the first hypothesis nothing is learnt.
     fn decide(&mut self) {
         let Moments { mean, p } = self.mixture().moments();
         let begun = self.begun();
         self.remember_watched(begun);
-        let parts = std::mem::take(&mut self.weighed.parts);
+        let mut parts = std::mem::take(&mut self.weighed.parts);
         let mut open = std::mem::take(&mut self.open);
+        let likeliest = (0..parts.len()).max_by(|a, b| parts[*a].weight().total_cmp(&parts[*b].weight()));
+        let tells = likeliest.filter(|place| self.directions.is_some() && !open[*place].first);
+        let watched = tells.map(|place| open[place].clone());
+        if open.first().is_some_and(|oldest| oldest.first) {
+            open.remove(0);
+            parts.remove(0);
+        }
         self.remember_time(&open, &parts);
         let mut weights = [0.0; SIZES];
-        for (hypothesis, part) in open.iter().zip(&parts) {
-            self.count(hypothesis, part);
+        for part in &parts {
             weights
                 .iter_mut()
                 .zip(&part.weights)
                 .for_each(|(sum, weight)| *sum += weight);
         }
-        let likeliest = (0..parts.len()).max_by(|a, b| parts[*a].weight().total_cmp(&parts[*b].weight()));
-        let tells = |place: &usize| self.directions.is_some() && !open[*place].first;
-        if let Some(place) = likeliest.filter(tells) {
-            self.watched = Some(Watched::new(self.quiet.clone(), open.swap_remove(place), weights));
-        }
+        self.count(&weights);
+        self.watched = watched.map(|hypothesis| Watched::new(self.quiet.clone(), hypothesis, weights));
         self.quiet = Member { dx: mean, p };
         self.weighed = Weighed {
             quiet: 1.0,
@@ -307,13 +297,8 @@ impl VelocityChanges {
         }
     }
 
-    /// Counts a change, but for one of the start: an outlier among the first samples, which nothing tells from the others, leaves the
-    /// estimate far off, and with the rate that would follow from it noise alone would pass for changes.
-    fn count(&mut self, hypothesis: &Hypothesis, part: &Part) {
-        if hypothesis.first {
-            return;
-        }
-        for (found, weight) in self.found.iter_mut().zip(&part.weights) {
+    fn count(&mut self, weights: &[f64; SIZES]) {
+        for (found, weight) in self.found.iter_mut().zip(weights) {
             *found += weight;
         }
     }
@@ -344,17 +329,20 @@ impl VelocityChanges {
         }
         let part = self.weighed.parts.remove(0);
         let weight = part.weight();
-        if weight > LEAST_LEARNT && !oldest.first {
+        let tells = !oldest.first;
+        if weight > LEAST_LEARNT && tells {
             self.remember_time(std::slice::from_ref(&oldest), std::slice::from_ref(&part));
             if let Some(directions) = &mut self.directions {
                 directions.learn(&found(&oldest, &part.weights));
             }
         }
         if weight > NEGLIGIBLE {
-            self.count(&oldest, &part);
+            if tells {
+                self.count(&part.weights);
+            }
             let by = oldest.e * part.first;
             self.quiet.dx += by;
-            self.quiet.p += oldest.e * part.second * oldest.e.transpose();
+            self.quiet.p += spd::carried(&oldest.e, &part.second).1;
             self.quiet.p.ger(-1.0, &by, &by, 1.0);
             let more = (weight / self.weighed.quiet).ln_1p();
             self.open.iter_mut().for_each(|hypothesis| hypothesis.ln_base += more);
@@ -366,7 +354,7 @@ impl VelocityChanges {
     ///
     /// * `relative`: position and velocity of the estimate, 6.
     fn open_next(&mut self, relative: &Vector6<f64>) {
-        // What the first estimate leaves would be taken for changes, and their rates be learnt from it.
+        // What the first estimate leaves would be taken for changes.
         let Some(elapsed) = self.elapsed.filter(|elapsed| *elapsed >= SETTLING) else {
             return;
         };
@@ -660,8 +648,19 @@ mod tests {
                 });
                 changes.take(&Shared::of(dt, f, Seen::of(&moved)));
             }
-            assert_eq!(changes.found.iter().sum::<f64>() > 0.9, counted, "{:?}", changes.found);
+            let count: f64 = changes.found.iter().sum();
+            assert!(if counted { count > 0.9 } else { count < 1e-2 }, "{:?}", changes.found);
             assert_eq!(changes.watched.is_some(), counted);
+            let empty = format!("{:?}", Some(Schedule::default()));
+            assert_eq!(format!("{:?}", changes.schedule) != empty, counted);
+        }
+        // Nor when it is folded in.
+        for first in [true, false] {
+            let mut changes = after(g, 40);
+            changes.open[0].first = first;
+            changes.weighed.parts[0].weights[2] = 0.5;
+            changes.fold_oldest();
+            assert_eq!(changes.found.iter().sum::<f64>() > 0.4, !first);
         }
     }
 
