@@ -102,8 +102,8 @@ impl Watched {
     }
 
     /// Whether a sample still says something of the one that comes at this time.
-    fn is_fresh(&self, used: &Past, time_s: f64) -> bool {
-        time_s - used.time_s <= FRESH * self.period_s + TICK
+    fn is_fresh(&self, past: &Past, time_s: f64) -> bool {
+        time_s - past.time_s <= FRESH * self.period_s + TICK
     }
 
     /// What the last samples used have left, by their mean, and the variance of that over the variance of one; `None` where there
@@ -321,9 +321,9 @@ impl Seen {
         seen
     }
 
-    /// What has changed since the last samples used, or against the line through the last suspects, if the filter's motion is right: the noise of this one and of their mean.
+    /// What has changed since samples before, if the filter's motion is right: the noise of this one, and of what they have left.
     ///
-    /// * `left`: as [`Watched::left`].
+    /// * `left`: as [`Watched::left`] or [`Watched::astray`].
     fn change(step: &Step, rows: Range<usize>, (left, share): &(Rows, f64), r: &RowVector) -> Self {
         let mut seen = Self {
             innovation: innovation(step, rows.clone()) - left,

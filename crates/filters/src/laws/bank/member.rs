@@ -113,18 +113,23 @@ mod tests {
         StandardNormal.sample(g)
     }
 
+    /// Any mean, and a covariance with every cross term.
+    fn of_nine_states(g: &mut Generator) -> Member<9> {
+        let root = SMatrix::<f64, 9, 9>::from_fn(|_, _| normal(g));
+        Member {
+            dx: SVector::from_fn(|_, _| normal(g)),
+            p: root * root.transpose() + SMatrix::identity(),
+        }
+    }
+
     /// Row by row against all rows at once, for a member with an acceleration of which nothing is measured.
     #[test]
     fn rows_one_after_the_other_are_the_update_of_all_at_once() {
         let g = &mut stream(3, 0, Source::Lidar);
-        let root = SMatrix::<f64, 9, 9>::from_fn(|_, _| normal(g));
-        let mut dense = Gaussian::<9> {
-            x: SVector::from_fn(|_, _| normal(g)),
-            p: root * root.transpose() + SMatrix::identity(),
-        };
-        let mut member = Member {
-            dx: dense.x,
-            p: dense.p,
+        let mut member = of_nine_states(g);
+        let mut dense = Gaussian {
+            x: member.dx,
+            p: member.p,
         };
         let rows: [Row; 3] = std::array::from_fn(|place| Row {
             place,
@@ -156,11 +161,7 @@ mod tests {
     #[test]
     fn what_is_beyond_position_and_velocity_is_held() {
         let g = &mut stream(4, 0, Source::Lidar);
-        let root = SMatrix::<f64, 9, 9>::from_fn(|_, _| normal(g));
-        let mut member = Member::<9> {
-            dx: SVector::from_fn(|_, _| normal(g)),
-            p: root * root.transpose(),
-        };
+        let mut member = of_nine_states(g);
         let (dx, p) = (member.dx, member.p);
         let f = SMatrix::<f64, 6, 9>::from_fn(|_, _| normal(g));
         let mut dense = SMatrix::<f64, 9, 9>::identity();

@@ -623,7 +623,8 @@ mod tests {
         changes.take(&step_of(g, 600.0));
         let oldest = &changes.open[0];
         assert!((oldest.age - newest - 600.0).abs() < TICK && (oldest.span - oldest.age).abs() < TICK);
-        assert!(changes.weighed.parts[0].weight() > 1e-9);
+        let ln_weight = (oldest.mass * oldest.factor(0.0)).ln();
+        assert!(ln_weight > -20.0 && changes.weighed.parts[0].weight() > 1e-9);
     }
 
     /// Innovations of a velocity that is off by 0.5 m/s: a change to the first hypothesis as to any other, and decided alike, but no
