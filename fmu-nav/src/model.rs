@@ -3,12 +3,12 @@
 use crate::slave::NavModel;
 use crate::variables;
 use filters::laws::FILTERS;
-use filters::state::State;
-use filters::{Navigator, Sample, Settings};
+use filters::{Command, Navigator, Settings};
 use fmi2_export::{Experiment, Log, Model, ModelError, ModelInfo, Table, VendorAnnotation};
 use interface::annotation::{self, Bound, Filters, Only, Preset, Search, Set};
 use interface::mission::{Choice, Embedded, packed_guid};
 use interface::{Sensor, Signals, Status};
+use std::cell::OnceCell;
 use std::path::Path;
 use std::sync::OnceLock;
 use uuid::Uuid;
@@ -41,10 +41,14 @@ impl Model for NavModel {
     fn blank() -> Self {
         Self {
             choice: Choice::default(),
+            filter: 1,
+            filter_index: 0,
             settings: Settings::default(),
             resolved: Vec::new(),
             inputs: Signals::default(),
+            command: Command::default(),
             navigator: None,
+            prediction: OnceCell::new(),
         }
     }
 
@@ -58,7 +62,12 @@ impl Model for NavModel {
 
     fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError> {
         let navigation = self.choice.mission()?.navigation();
-        self.navigator = Some(Navigator::new(&navigation, &self.settings, experiment.start_time)?);
+        self.settings.filter = self.chosen()?;
+        let mut navigator = Navigator::new(&navigation, &self.settings, experiment.start_time)?;
+        let (sample, nav_init) = self.arrived();
+        navigator.begin(&sample, &nav_init, &self.command);
+        self.navigator = Some(navigator);
+        self.prediction = OnceCell::new();
         self.resolved = self.settings.resolved(&navigation)?;
         log.event(format_args!(
             "filter {} in mission {} starts at t = {} s",
@@ -70,11 +79,15 @@ impl Model for NavModel {
     }
 
     fn do_step(&mut self, t: f64, h: f64, log: &mut Log<'_>) -> Result<(), ModelError> {
+        let (sample, nav_init) = self.arrived();
+        self.prediction = OnceCell::new();
         let Some(navigator) = &mut self.navigator else {
             return Ok(());
         };
         let (before, inputs) = (navigator.status(), &self.inputs);
-        let new = navigator.process(&Sample::from(inputs), &State::from(inputs.nav_init))?;
+        navigator.step(t, h, &self.command);
+        navigator.expect(&sample, &nav_init);
+        let new = navigator.process(&sample, &nav_init)?;
         if !new {
             navigator.wait(h);
         }

@@ -7,7 +7,7 @@ use crate::slave::NavModel;
 use filters::beliefs::{BELIEFS, Belief, Place};
 use filters::laws::FILTERS;
 use filters::tunable::{self, Tunable, Value};
-use filters::{Beliefs, Navigator};
+use filters::{Beliefs, Command, Navigator, Prediction};
 use fmi2_export::{Real, Row, Table, TableBuilder};
 use interface::mission::{Embedded, Frame};
 use interface::ports::{Kind, Part, Port, Role, Shape, of};
@@ -26,6 +26,9 @@ pub fn table() -> Table<NavModel> {
     }
     for (port, slot) in slots() {
         input_row(&mut t, port, slot);
+    }
+    for port in of(Role::Announced) {
+        command_row(&mut t, port);
     }
     for (port, shown) in estimates() {
         estimate_row(&mut t, port, shown);
@@ -77,6 +80,12 @@ fn study(t: &mut Builder) {
         .start(1)
         .about("which of the missions that come with the FMU the filter is told of: dynamics, state, and every parameter at -1")
         .rw(|m| m.choice.scenario, |m, v| m.choice.scenario = v);
+    t.integer("scenario_index")
+        .parameter()
+        .min(0)
+        .start(0)
+        .about("the same as scenario, for tools that know no enumerations; 0: scenario counts")
+        .rw(|m| m.choice.scenario_index, |m, v| m.choice.scenario_index = v);
     t.string("mission_file")
         .parameter()
         .start("")
@@ -86,7 +95,13 @@ fn study(t: &mut Builder) {
         .parameter()
         .start(1)
         .about("which filter runs")
-        .rw(|m| m.settings.filter as i32 + 1, |m, v| m.settings.filter = index(v));
+        .rw(|m| m.filter, |m, v| m.filter = v);
+    t.integer("filter_index")
+        .parameter()
+        .min(0)
+        .start(0)
+        .about("the same as filter, for tools that know no enumerations; 0: filter counts")
+        .rw(|m| m.filter_index, |m, v| m.filter_index = v);
     t.integer("study_seed")
         .parameter()
         .min(0)
@@ -284,17 +299,51 @@ fn input_row(t: &mut Builder, port: &'static Port, slot: Slot) {
     }
 }
 
+/// An input that says what the chaser is commanded to do.
+fn command_row(t: &mut Builder, port: &'static Port) {
+    let about = port.about(0);
+    match port.name {
+        "impulse_count" => t
+            .integer(port.name)
+            .input()
+            .about(about)
+            .rw(|m| m.command.impulse_count, |m, v| m.command.impulse_count = v),
+        name => {
+            let of_push = name == "a_cmd_c_n";
+            let row = t.real(name).input().unit(port.unit(0)).about(about);
+            row.vector_rw(
+                port.shape.len(),
+                move |m, i| command_part(&mut m.command.clone(), of_push)[i],
+                move |m, i, v| command_part(&mut m.command, of_push)[i] = v,
+            );
+        }
+    }
+}
+
+/// The acceleration or the impulse of a command.
+fn command_part(command: &mut Command, of_push: bool) -> &mut nalgebra::Vector3<f64> {
+    if of_push {
+        &mut command.a_cmd_c_n
+    } else {
+        &mut command.impulse_c_n
+    }
+}
+
 /// How a port of the estimate is read from a running filter; elements count from 0, matrices go row by row.
 enum Shown {
     Real(fn(&Navigator, usize) -> f64),
     Integer(fn(&Navigator) -> i32),
     Boolean(fn(&Navigator) -> bool),
+    /// Of the prediction.
+    Predicted(fn(&Prediction, usize) -> f64),
     /// Measured minus predicted, from this place of an innovation on.
     Innovation(usize),
     /// Predicted variance, likewise.
     Variance(usize),
     /// The status, which has a value before the filter runs.
     Status,
+    /// Its number.
+    StatusIndex,
 }
 
 /// Every port of the estimate with its reader.
@@ -303,7 +352,7 @@ fn estimates() -> impl Iterator<Item = (&'static Port, Shown)> {
 }
 
 fn shown(port: &Port) -> Option<Shown> {
-    use Shown::{Boolean, Integer, Real, Status};
+    use Shown::{Boolean, Integer, Predicted, Real, Status, StatusIndex};
     match port.part {
         Some((sensor, Part::Innovation(first))) => return Some(Shown::Innovation(sensor.channels().start + first)),
         Some((sensor, Part::Variance(first))) => return Some(Shown::Variance(sensor.channels().start + first)),
@@ -313,8 +362,8 @@ fn shown(port: &Port) -> Option<Shown> {
         "est.time" => Real(|n, _| n.estimate().time),
         "est.count" => Integer(|n| n.estimate().count),
         "est.dimension" => Integer(|n| n.dimension() as i32),
-        "est.r_tc_n" => Real(|n, i| inertial(n, n.estimate().x[i])),
-        "est.v_tc_n" => Real(|n, i| inertial(n, n.estimate().x[3 + i])),
+        "est.r_tc_n" => Real(|n, i| n.relative_n().0[i]),
+        "est.v_tc_n" => Real(|n, i| n.relative_n().1[i]),
         "est.a_t_n" => Real(|n, i| inertial(n, n.estimate().x[6 + i])),
         "est.r_c_n" => Real(|n, i| inertial(n, n.estimate().x[9 + i])),
         "est.v_c_n" => Real(|n, i| inertial(n, n.estimate().x[12 + i])),
@@ -341,6 +390,13 @@ fn shown(port: &Port) -> Option<Shown> {
         "edited.duplicates" => Integer(Navigator::duplicates),
         "edited.restarts" => Integer(Navigator::restarts),
         "status" => Status,
+        "status_index" => StatusIndex,
+        "pred.time" => Predicted(|p, _| p.time),
+        "pred.r_tc_n" => Predicted(|p, i| p.r_tc_n[i]),
+        "pred.v_tc_n" => Predicted(|p, i| p.v_tc_n[i]),
+        "pred.rho_lvlh" => Predicted(|p, i| p.rho_lvlh[i]),
+        "pred.rho_dot_lvlh" => Predicted(|p, i| p.rho_dot_lvlh[i]),
+        "pred.sigma" => Predicted(|p, i| p.sigma[i]),
         "cov.sigma" => Real(|n, i| n.estimate().sigma[i]),
         "cov.p" => Real(|n, i| n.estimate().p_target[(i / 9, i % 9)]),
         _ => return None,
@@ -371,25 +427,52 @@ fn estimate_row(t: &mut Builder, port: &'static Port, shown: Shown) {
             .output()
             .about(about)
             .get(|m| m.status().number()),
-        Shown::Real(get) => real_estimate(t, port, get),
-        Shown::Innovation(first) => real_estimate(t, port, move |n, i| n.innovation().residual[first + i]),
-        Shown::Variance(first) => real_estimate(t, port, move |n, i| n.innovation().variance[first + i]),
+        Shown::StatusIndex => t.integer(name).output().about(about).get(|m| m.status().number()),
+        Shown::Real(get) => real_estimate(t, port, move |m, i| m.read(|n| get(n, i))),
+        Shown::Predicted(get) => real_estimate(t, port, move |m, i| get(m.predicted(), i)),
+        Shown::Innovation(first) => {
+            real_estimate(t, port, move |m, i| m.read(|n| n.innovation().residual[first + i]));
+        }
+        Shown::Variance(first) => real_estimate(t, port, move |m, i| m.read(|n| n.innovation().variance[first + i])),
     }
 }
 
 fn real_estimate(
     t: &mut Builder,
     port: &'static Port,
-    get: impl Fn(&Navigator, usize) -> f64 + Copy + Send + Sync + 'static,
+    get: impl Fn(&NavModel, usize) -> f64 + Copy + Send + Sync + 'static,
 ) {
-    let row = with_unit(t.real(port.name).discrete(), port).about_by(|i| port.about(i).to_owned());
+    let name = port.name;
+    let mut row = t.real(name);
+    // What holds at a sample changes there; a prediction changes with every step.
+    if !name.starts_with("pred.") {
+        row = row.discrete();
+    }
+    let mut row = with_unit(row, port).about_by(|i| port.about(i).to_owned());
+    // Before the first sample they are those of the initial estimate.
+    let state = [
+        "est.r_tc_n",
+        "est.v_tc_n",
+        "est.a_t_n",
+        "est.r_c_n",
+        "est.v_c_n",
+        "est.b_c_bc",
+    ];
+    let in_lvlh = ["est.rho_lvlh", "est.rho_dot_lvlh", "est.d_lvlh"];
+    let spread = name.starts_with("pred.") && name != "pred.time" || name.starts_with("cov.");
+    if state.contains(&name) || in_lvlh.contains(&name) || spread {
+        row = row.initially_from("nav_init.x");
+    }
+    if matches!(name, "est.r_tc_n" | "est.v_tc_n" | "pred.r_tc_n" | "pred.v_tc_n") {
+        row = row.initially_from("dcm_lvlh_n").initially_from("omega_lvlh");
+    }
     match port.shape {
-        Shape::Scalar => row.output().get(move |m| m.read(|n| get(n, 0))),
-        Shape::Vector(count) => row.output().vector(count, move |m, i| m.read(|n| get(n, i))),
+        Shape::Scalar => row.output().get(move |m| get(m, 0)),
+        Shape::Vector(count) => row.output().vector(count, get),
         // Not an output: it would crowd every master's result file.
         Shape::Matrix(rows, columns) => {
             row.local()
-                .matrix(rows, columns, move |m, i, j| m.read(|n| get(n, columns * i + j)));
+                .matrix(rows, columns, move |m, i, j| get(m, columns * i + j));
         }
     }
 }
@@ -446,7 +529,7 @@ mod tests {
         model.inputs = Signals {
             sample_time: f64::from(t),
             sample_count: t,
-            target_orbit: [8.1e6, 10.0, 5.6e10, 0.5, 0.25],
+            target_orbit: [8.1e6, 10.0, 5.6e10, 0.5, 0.25, -1.5],
             // Body y, the boresight, along N x.
             dcm_bc_n: [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0],
             nav_init: init,
@@ -472,7 +555,7 @@ mod tests {
         let rows = NavModel::table().rows();
         for port in PORTS {
             let row = rows.iter().find(|row| row.name == port.name);
-            let ours = matches!(port.role, Role::Sensor | Role::Untold | Role::Estimate);
+            let ours = !matches!(port.role, Role::Command | Role::Truth);
             assert_eq!(row.is_some(), ours, "{}", port.name);
             if let Some(row) = row {
                 assert_eq!(row.shape.count(), port.shape.len(), "{}", port.name);

@@ -11,7 +11,7 @@ use truth::{Inputs, Params, SensorSample, Simulation};
 pub struct TruthModel {
     /// Parameters.
     pub params: Params,
-    /// Inputs as set; they act from the next grid point.
+    /// Inputs as set; they act from the communication point at which the next step begins.
     pub inputs: Inputs,
     /// The run, from initialization on.
     pub simulation: Option<Simulation>,
@@ -42,8 +42,12 @@ pub fn show(signals: &mut Signals, sample: &SensorSample) {
     signals.sample_time = sample.time;
     signals.sample_count = i32::try_from(sample.count).unwrap_or(i32::MAX);
     signals.sensors = sample.sensors;
-    let orbit = |o: &TargetOrbit| [o.r, o.r_dot, o.h, o.inclination, o.argument_of_latitude];
-    signals.target_orbit = sample.target_orbit.as_ref().map_or([0.0; 5], orbit);
+    let orbit = |o: &TargetOrbit| [o.r, o.r_dot, o.h, o.inclination, o.argument_of_latitude, o.node];
+    signals.target_orbit = sample.target_orbit.as_ref().map_or([0.0; 6], orbit);
+    if let Some(axes) = &sample.target_axes {
+        signals.dcm_lvlh_n = std::array::from_fn(|i| axes.dcm_lvlh_n[(i / 3, i % 3)]);
+        signals.omega_lvlh = axes.omega.into();
+    }
     signals.accelerometer_valid = sample.accelerometer.valid;
     signals.accelerometer_mean = sample.accelerometer.mean;
     signals.alpha_c_bc = sample.accelerometer.alpha_c_bc.into();

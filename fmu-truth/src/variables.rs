@@ -44,6 +44,15 @@ fn study(t: &mut Builder) {
         .start(1)
         .about("which of the missions that come with the FMU is simulated")
         .rw(|m| m.params.choice.scenario, |m, v| m.params.choice.scenario = v);
+    t.integer("scenario_index")
+        .parameter()
+        .min(0)
+        .start(0)
+        .about("the same as scenario, for tools that know no enumerations; 0: scenario counts")
+        .rw(
+            |m| m.params.choice.scenario_index,
+            |m, v| m.params.choice.scenario_index = v,
+        );
     t.string("mission_file")
         .parameter()
         .start("")
@@ -120,10 +129,27 @@ fn parameter_row(t: &mut Builder, row: usize, parameter: &'static Parameter) {
 }
 
 fn inputs(t: &mut Builder) {
-    for port in of(Role::Command) {
+    for port in of(Role::Announced).chain(of(Role::Command)) {
         let place: fn(&mut truth::Inputs) -> &mut nalgebra::Vector3<f64> = match port.name {
             "a_cmd_c_n" => |inputs| &mut inputs.a_cmd_c_n,
-            _ => |inputs| &mut inputs.a_dist_t_n,
+            "impulse_c_n" => |inputs| &mut inputs.impulse_c_n,
+            "a_dist_t_n" => |inputs| &mut inputs.a_dist_t_n,
+            "f_dist_t_bt" => |inputs| &mut inputs.f_dist_t_bt,
+            "impulse_count" => {
+                let row = t.integer(port.name).input().about(port.about(0));
+                row.rw(|m| m.inputs.impulse_count, |m, v| m.inputs.impulse_count = v);
+                continue;
+            }
+            _ => {
+                let row = t.real(port.name).input().unit(port.unit(0)).about(port.about(0));
+                row.matrix_rw(
+                    3,
+                    3,
+                    |m, i, j| m.inputs.dcm_cmd_bc_n[(i, j)],
+                    |m, i, j, v| m.inputs.dcm_cmd_bc_n[(i, j)] = v,
+                );
+                continue;
+            }
         };
         t.real(port.name)
             .input()
@@ -136,6 +162,9 @@ fn inputs(t: &mut Builder) {
             );
     }
 }
+
+/// Inputs that push the target.
+const PUSHES_TARGET: [&str; 2] = ["a_dist_t_n", "f_dist_t_bt"];
 
 /// What the newest sample holds; that of a sensor which is not on board is zero.
 fn sensor_row(t: &mut Builder, port: &'static Port, slot: Slot) {
@@ -159,9 +188,13 @@ fn sensor_row(t: &mut Builder, port: &'static Port, slot: Slot) {
                 row.unit_by(|i| port.unit(i))
             };
             row = row.about_by(|i| port.about(i).to_owned());
-            if name == "nav_init.x" {
-                row = row.initially_from("a_dist_t_n");
-            }
+            // The start has no sample yet: the initial estimate, the attitude and the turn of the target's axes are what shows.
+            let from: &[&'static str] = match name {
+                "nav_init.x" | "omega_lvlh" => &PUSHES_TARGET,
+                "dcm_bc_n" => &["dcm_cmd_bc_n"],
+                _ => &[],
+            };
+            row = from.iter().fold(row, |row, input| row.initially_from(input));
             match port.shape {
                 Shape::Scalar => row.get(move |m| slot.reals(&m.signals)[0]),
                 Shape::Vector(n) => row.vector(n, move |m, i| slot.reals(&m.signals)[i]),
@@ -177,8 +210,8 @@ fn sensor_row(t: &mut Builder, port: &'static Port, slot: Slot) {
 fn truth_row(t: &mut Builder, port: &'static Port) {
     if port.kind == Kind::Boolean {
         let row = t.boolean(port.name).output().about(port.about(0));
-        row.initially_from("a_dist_t_n")
-            .get(|m| m.read(|s| s.now().event_active));
+        let row = PUSHES_TARGET.iter().fold(row, |row, input| row.initially_from(input));
+        row.get(|m| m.read(|s| s.now().event_active));
         return;
     }
     let part: fn(&Moment, usize) -> f64 = match port.name {
@@ -195,10 +228,10 @@ fn truth_row(t: &mut Builder, port: &'static Port) {
     let mut row = t.real(port.name).output().unit(port.unit(0)).about(port.about(0));
     // Accelerations as such, and through the turning of the target's axes.
     if matches!(port.name, "truth.a_t_n" | "truth.rho_dot_lvlh" | "truth.d_lvlh") {
-        row = row.initially_from("a_dist_t_n");
+        row = PUSHES_TARGET.iter().fold(row, |row, input| row.initially_from(input));
     }
     if port.name == "truth.d_lvlh" {
-        row = row.initially_from("a_cmd_c_n");
+        row = row.initially_from("a_cmd_c_n").initially_from("dcm_cmd_bc_n");
     }
     row.vector(port.shape.len(), move |m, i| m.read(|s| part(s.now(), i)));
 }

@@ -32,7 +32,7 @@ pub use cr3bp::{Cr3bp, Cr3bpSystem};
 pub use elements::Elements;
 pub use error::AstroError;
 pub use harmonics::{Coefficients, FieldError, SphericalHarmonics};
-pub use relative::Lvlh;
+pub use relative::{Lvlh, LvlhAxes};
 pub use relative_axes::RelativeAxes;
 pub use relative_j2::{J2RelativeMotion, TargetOrbit};
 pub use zonal::ZonalGravity;

@@ -5,6 +5,7 @@
 //! chaser minus target: `rho`, m, and `rho_dot`, m/s, the rate that an observer turning with the axes sees.
 
 use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 
 use crate::frames;
 
@@ -14,8 +15,41 @@ pub struct Lvlh {
     r_t_n: Vector3<f64>,
     v_t_n: Vector3<f64>,
     a_t_n: Vector3<f64>,
-    dcm_lvlh_n: Matrix3<f64>,
-    omega: Vector3<f64>,
+    axes: LvlhAxes,
+}
+
+/// How LVLH axes stand and turn, wherever their origin is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LvlhAxes {
+    /// Direction cosine matrix from inertial axes N to LVLH.
+    pub dcm_lvlh_n: Matrix3<f64>,
+    /// Angular rate of LVLH against N, LVLH axes, rad/s.
+    pub omega: Vector3<f64>,
+}
+
+impl LvlhAxes {
+    /// Inertial components of a relative state (`rho`, `rho_dot`) that stands in these axes, m and m/s.
+    pub fn to_n(&self, rho: &Vector3<f64>, rho_dot: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+        let dcm_n_lvlh = self.dcm_lvlh_n.transpose();
+        (dcm_n_lvlh * rho, dcm_n_lvlh * (rho_dot + self.omega.cross(rho)))
+    }
+
+    /// The same axes after `dt` seconds at a constant rate.
+    pub fn after(&self, dt: f64) -> Self {
+        let angle = self.omega * dt;
+        let (norm, cross) = (angle.norm(), angle.cross_matrix());
+        // Rodrigues; both coefficients by their series where the angle is too small to divide by.
+        let (first, second) = if norm < 1e-4 {
+            (1.0 - norm * norm / 6.0, 0.5 - norm * norm / 24.0)
+        } else {
+            (norm.sin() / norm, (1.0 - norm.cos()) / (norm * norm))
+        };
+        let turn = Matrix3::identity() - cross * first + cross * cross * second;
+        Self {
+            dcm_lvlh_n: turn * self.dcm_lvlh_n,
+            omega: self.omega,
+        }
+    }
 }
 
 impl Lvlh {
@@ -35,19 +69,26 @@ impl Lvlh {
             r_t_n: *r_t_n,
             v_t_n: *v_t_n,
             a_t_n: *a_t_n,
-            dcm_lvlh_n,
-            omega: Vector3::new(r * across / h, 0.0, h / (r * r)),
+            axes: LvlhAxes {
+                dcm_lvlh_n,
+                omega: Vector3::new(r * across / h, 0.0, h / (r * r)),
+            },
         }
+    }
+
+    /// How they stand and turn.
+    pub fn axes(&self) -> &LvlhAxes {
+        &self.axes
     }
 
     /// Direction cosine matrix from inertial axes N to LVLH.
     pub fn dcm_lvlh_n(&self) -> &Matrix3<f64> {
-        &self.dcm_lvlh_n
+        &self.axes.dcm_lvlh_n
     }
 
     /// Angular rate of LVLH against N, LVLH axes, rad/s; its y component is zero.
     pub fn angular_rate(&self) -> &Vector3<f64> {
-        &self.omega
+        &self.axes.omega
     }
 
     /// Angular acceleration of LVLH against N, LVLH axes, rad/s2.
@@ -55,31 +96,32 @@ impl Lvlh {
     /// * `jerk_t_n`: time derivative of the target's acceleration along its path, N, m/s3.
     pub fn angular_acceleration(&self, jerk_t_n: &Vector3<f64>) -> Vector3<f64> {
         let r = self.r_t_n.norm();
-        let h = r * r * self.omega.z;
+        let omega = &self.axes.omega;
+        let h = r * r * omega.z;
         let r_dot = self.r_t_n.dot(&self.v_t_n) / r;
-        let a = self.dcm_lvlh_n * self.a_t_n;
+        let a = self.axes.dcm_lvlh_n * self.a_t_n;
         let h_dot = r * a.y;
         // The normal turns with the axes: a_n changes by the jerk and by -omega_x times the transverse part.
-        let a_n_dot = (self.dcm_lvlh_n * jerk_t_n).z - self.omega.x * a.y;
+        let a_n_dot = (self.axes.dcm_lvlh_n * jerk_t_n).z - omega.x * a.y;
         Vector3::new(
             (r_dot * a.z + r * a_n_dot - r * a.z * h_dot / h) / h,
             0.0,
-            h_dot / (r * r) - 2.0 * self.omega.z * r_dot / r,
+            h_dot / (r * r) - 2.0 * omega.z * r_dot / r,
         )
     }
 
     /// Relative state (`rho`, `rho_dot`) of a chaser, from its inertial position and velocity.
     pub fn relative(&self, r_c_n: &Vector3<f64>, v_c_n: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
-        let rho = self.dcm_lvlh_n * (r_c_n - self.r_t_n);
-        let rho_dot = self.dcm_lvlh_n * (v_c_n - self.v_t_n) - self.omega.cross(&rho);
+        let LvlhAxes { dcm_lvlh_n, omega } = &self.axes;
+        let rho = dcm_lvlh_n * (r_c_n - self.r_t_n);
+        let rho_dot = dcm_lvlh_n * (v_c_n - self.v_t_n) - omega.cross(&rho);
         (rho, rho_dot)
     }
 
     /// Inertial position and velocity of a chaser with this relative state: the inverse of [`Lvlh::relative`].
     pub fn absolute(&self, rho: &Vector3<f64>, rho_dot: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
-        let dcm_n_lvlh = self.dcm_lvlh_n.transpose();
-        let v = dcm_n_lvlh * (rho_dot + self.omega.cross(rho));
-        (self.r_t_n + dcm_n_lvlh * rho, self.v_t_n + v)
+        let (r, v) = self.axes.to_n(rho, rho_dot);
+        (self.r_t_n + r, self.v_t_n + v)
     }
 
     /// Second derivative of `rho`, as seen in the turning axes.
@@ -95,7 +137,7 @@ impl Lvlh {
         a_rel_n: &Vector3<f64>,
         alpha: &Vector3<f64>,
     ) -> Vector3<f64> {
-        self.dcm_lvlh_n * a_rel_n + turning_axes(rho, rho_dot, &self.omega, alpha)
+        self.axes.dcm_lvlh_n * a_rel_n + turning_axes(rho, rho_dot, &self.axes.omega, alpha)
     }
 }
 

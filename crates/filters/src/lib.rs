@@ -14,6 +14,7 @@
 //! knows of FMI.
 
 pub mod beliefs;
+mod commands;
 mod disturbance;
 pub mod dynamics;
 mod editing;
@@ -25,6 +26,7 @@ pub mod jerk;
 pub mod laws;
 mod layout;
 mod navigator;
+mod prediction;
 mod sample;
 mod source;
 pub mod state;
@@ -33,6 +35,7 @@ mod units;
 pub mod update;
 
 pub use beliefs::Beliefs;
+pub use commands::Command;
 pub use disturbance::Disturbance;
 pub use error::FilterError;
 pub use gravity::Gravity;
@@ -40,5 +43,6 @@ pub use innovation::Innovation;
 pub use interface::{Navigation, Status};
 pub use layout::{Layout, Measured};
 pub use navigator::{Estimate, Navigator, Settings};
+pub use prediction::Prediction;
 pub use sample::{Reading, Sample, SpecificForce, Untold};
 pub use units::Units;

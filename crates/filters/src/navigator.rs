@@ -1,6 +1,7 @@
 //! A running filter: takes samples, bridges gaps, and holds the estimate.
 
 use crate::beliefs::Beliefs;
+use crate::commands::{Command, Commands};
 use crate::dynamics::AccelerationModel;
 use crate::editing::Editing;
 use crate::error::FilterError;
@@ -8,6 +9,7 @@ use crate::estimators::{Gap, Kind, Reported};
 use crate::innovation::Innovation;
 use crate::laws::{Adaptation, FILTERS, FilterEntry, Hindsight, Law, Replacement, Setup, Step, Update, registry};
 use crate::layout::Layout;
+use crate::prediction::{self, Prediction};
 use crate::sample::{Reading, Sample, Untold};
 use crate::source::{Arrival, Source};
 use crate::state::{RowVector, State, Target, TargetMatrix};
@@ -22,6 +24,9 @@ use std::borrow::Cow;
 
 /// Longest gap between samples, s. A tag further ahead is a mistake of the caller, not a gap.
 const LONGEST_GAP: f64 = 1e5;
+
+/// Most steps of a prediction.
+const MOST_PREDICTED: f64 = 600.0;
 
 /// Everything that chooses a filter, but for the mission.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -130,6 +135,14 @@ pub struct Navigator {
     between: Option<Between>,
     /// What a bound has been told so far; `None` for a filter, which is told nothing.
     untold: Option<Untold>,
+    /// What the chaser has been commanded since the sample last used, where the filter is told.
+    commands: Commands,
+    /// What of the sample last used holds until the next one, attitude and orbit; before the first, what is known at the start.
+    last: Sample,
+    /// The initial estimate, while no sample has been used and as far as it is known.
+    expected: Option<State>,
+    /// End of the present communication step, s.
+    now_s: f64,
 }
 
 /// Epochs of the accelerometer alone, as one: their length, transition and correction of the target's nine states.
@@ -234,7 +247,90 @@ impl Navigator {
             status: Status::Initialising,
             between: None,
             untold: filter.bound.then(Untold::default),
+            commands: Commands::default(),
+            last: Sample::blank(0, start_time),
+            expected: None,
+            now_s: start_time,
         })
+    }
+
+    /// What holds at the start, before any step: where impulses begin to count, and the initial estimate.
+    pub fn begin(&mut self, sample: &Sample, nav_init: &State, command: &Command) {
+        self.commands = Commands::begin(command.impulse_count);
+        self.expect(sample, nav_init);
+    }
+
+    /// A communication step begins at `t_s` and is `length_s` long, with this command over it; call before [`Navigator::process`].
+    pub fn step(&mut self, t_s: f64, length_s: f64, command: &Command) {
+        self.commands.take(t_s, command);
+        self.now_s = t_s + length_s;
+    }
+
+    /// Shows the initial estimate as long as no sample has been used: all zero is unknown.
+    ///
+    /// * `sample`: for the attitude and the target's orbit at the start.
+    pub fn expect(&mut self, sample: &Sample, nav_init: &State) {
+        if self.estimator.get().started() {
+            return;
+        }
+        let known = nav_init.iter().any(|v| *v != 0.0) && nav_init.iter().all(|v| v.is_finite());
+        let mut start = self.estimator.clone();
+        self.expected = (known && start.get_mut().start(nav_init, self.start_s).is_ok()).then_some(*nav_init);
+        self.last = sample.without_readings(self.start_s);
+        if self.expected.is_some() {
+            let Reported { x, p_target, sigma } = start.get().report(&self.last, &self.law, None);
+            self.estimate = Estimate {
+                x,
+                p_target,
+                sigma,
+                ..self.estimate
+            };
+        }
+    }
+
+    /// The estimate propagated to the end of the present communication step.
+    ///
+    /// A prediction is made anew each time from the last sample, so it depends on nothing but that and the commands.
+    pub fn predict(&self) -> Prediction {
+        let ahead = self.predicted().unwrap_or_else(|| Reported {
+            x: self.estimate.x,
+            p_target: self.estimate.p_target,
+            sigma: self.estimate.sigma,
+        });
+        let length_s = self.now_s - self.estimate.time;
+        let axes = self.last.target_axes.map(|axes| axes.after(length_s));
+        Prediction::new(self.now_s, self.frame, &ahead.x, &ahead.sigma, axes.as_ref())
+    }
+
+    /// The same as its estimator has it; `None` where there is no step to go, or none that can be gone.
+    fn predicted(&self) -> Option<Reported> {
+        let length_s = self.now_s - self.estimate.time;
+        if length_s.is_nan() || length_s <= 0.0 {
+            return None;
+        }
+        let mut kind = self.estimator.clone();
+        let estimator = kind.get_mut();
+        if !estimator.started() {
+            estimator.start(&self.expected?, self.start_s).ok()?;
+        }
+        let ahead = self.last.without_readings(self.now_s);
+        let gap = Gap {
+            from_s: self.estimate.time,
+            length_s,
+            start_s: self.start_s,
+            // A source that has stalled for long must not make every step a long one.
+            step_s: Gap::LONGEST_STEP.max(length_s / MOST_PREDICTED),
+        };
+        let f = estimator.propagate(&gap, &ahead, &self.law, &self.commands).ok()?;
+        let since = self.between.as_ref().map_or(f, |between| f * between.f);
+        estimator.defect(self.now_s).is_none().then_some(())?;
+        Some(estimator.report(&ahead, &self.law, Some(&since)))
+    }
+
+    /// Position and velocity of the target relative to the chaser as estimated, axes N, m and m/s; zero in the LVLH frame where nobody
+    /// says how that stands.
+    pub fn relative_n(&self) -> (Vector3<f64>, Vector3<f64>) {
+        prediction::relative_n(self.frame, &self.estimate.x, self.last.target_axes.as_ref())
     }
 
     /// Processes a sample. One that was here before is passed by: the ordinal of the last, or a lower one with an epoch that is not
@@ -295,8 +391,9 @@ impl Navigator {
             from_s: last_s,
             length_s: gap_s,
             start_s: self.start_s,
+            step_s: Gap::LONGEST_STEP,
         };
-        let f = estimator.propagate(&gap, &sample, &self.law)?;
+        let f = estimator.propagate(&gap, &sample, &self.law, &self.commands)?;
         let mut step = Step::blank(gap_s / self.units.time, f);
         let mut seen = estimator.update(&sample, &mut step)?;
         if let Some(all) = seen {
@@ -349,6 +446,9 @@ impl Navigator {
             p_target,
             sigma,
         };
+        self.commands.forget_before(sample.time);
+        self.last = sample.without_readings(sample.time);
+        self.expected = None;
         self.judge(due, seen);
         Ok(true)
     }
@@ -560,11 +660,12 @@ mod tests {
             from_s: 0.0,
             length_s: 1.0,
             start_s: 0.0,
+            step_s: Gap::LONGEST_STEP,
         };
         let estimator = nav.estimator.get_mut();
         estimator.start(&start, 1.0).unwrap();
         // Body axes along N: the boresight is y.
-        let f = estimator.propagate(&gap, &sample, &nav.law).unwrap();
+        let f = estimator.propagate(&gap, &sample, &nav.law, &nav.commands).unwrap();
         let mut step = Step::blank(1.0, f);
         let seen = estimator.update(&sample, &mut step).unwrap().unwrap();
         assert!(step.measured.count() == 3 && step.measured.has(2) && !step.measured.has(3));

@@ -1,6 +1,6 @@
 //! One sensor sample as it reaches a filter, SI.
 
-use astro::TargetOrbit;
+use astro::{LvlhAxes, TargetOrbit};
 use interface::signals::Seen;
 use interface::{Sensor, Signals};
 use nalgebra::{Matrix3, Vector3, Vector6};
@@ -78,6 +78,8 @@ pub struct Sample {
     pub sensors: [Reading; Sensor::COUNT],
     /// Orbit of the target as an absolute navigation on board has it; all zero where nobody provides it. Its node is not read.
     pub target_orbit: TargetOrbit,
+    /// Its LVLH axes at the epoch; `None` where nobody provides them.
+    pub target_axes: Option<LvlhAxes>,
     /// Accelerometer reading; `None` at an epoch at which it does not sample.
     pub accelerometer: Option<SpecificForce>,
     /// Attitude at the epoch: axes N to chaser body.
@@ -94,9 +96,22 @@ impl Sample {
             time,
             sensors: [Reading::NotDue; Sensor::COUNT],
             target_orbit: TargetOrbit::from_vector(&Vector6::zeros()),
+            target_axes: None,
             accelerometer: None,
             dcm_bc_n: Matrix3::identity(),
             untold: None,
+        }
+    }
+}
+
+impl Sample {
+    /// What does not end with the epoch, at another: attitude and orbit as they were.
+    pub(crate) fn without_readings(&self, time: f64) -> Self {
+        Self {
+            target_orbit: self.target_orbit,
+            target_axes: self.target_axes,
+            dcm_bc_n: self.dcm_bc_n,
+            ..Self::blank(self.count, time)
         }
     }
 }
@@ -123,7 +138,13 @@ impl From<&Signals> for Sample {
             (true, true) => Reading::Seen(Rows::from(seen.z)),
         };
         let alpha = Vector3::from(s.alpha_c_bc);
-        let [r, r_dot, h, inclination, argument_of_latitude] = s.target_orbit;
+        let [r, r_dot, h, inclination, argument_of_latitude, node] = s.target_orbit;
+        let dcm_lvlh_n = Matrix3::from_row_slice(&s.dcm_lvlh_n);
+        let mut omega = Vector3::from(s.omega_lvlh);
+        if omega == Vector3::zeros() && r > 0.0 {
+            // Whoever says how they stand and not how they turn: but for the turn of the orbit's plane.
+            omega.z = h / (r * r);
+        }
         Self {
             count: s.sample_count,
             time: s.sample_time,
@@ -134,8 +155,9 @@ impl From<&Signals> for Sample {
                 h,
                 inclination,
                 argument_of_latitude,
-                ..TargetOrbit::from_vector(&Vector6::zeros())
+                node,
             },
+            target_axes: is_rotation(&dcm_lvlh_n).then_some(LvlhAxes { dcm_lvlh_n, omega }),
             accelerometer: s.accelerometer_valid.then_some(if s.accelerometer_mean {
                 SpecificForce::Mean(alpha)
             } else {
@@ -148,4 +170,9 @@ impl From<&Signals> for Sample {
             }),
         }
     }
+}
+
+/// Whether a matrix turns axes into axes.
+fn is_rotation(dcm: &Matrix3<f64>) -> bool {
+    (dcm * dcm.transpose() - Matrix3::identity()).amax() < 1e-6
 }

@@ -3,6 +3,9 @@
 /// Base units that FMI knows; each has an attribute of the same spelling in `<BaseUnit>`.
 const BASE: [&str; 8] = ["kg", "m", "s", "A", "K", "mol", "cd", "rad"];
 
+/// Units with a symbol of their own: exponents of [`BASE`].
+const DERIVED: [(&str, [f64; BASE.len()]); 1] = [("N", [1.0, 1.0, -2.0, 0.0, 0.0, 0.0, 0.0, 0.0])];
+
 /// Display units: unit, display unit, factor.
 const DISPLAY: [(&str, &str, f64); 2] = [
     ("rad", "deg", 180.0 / std::f64::consts::PI),
@@ -73,7 +76,7 @@ fn multiply(exponents: &mut [f64; BASE.len()], product: &str, sign: f64) -> Opti
             rest = after;
         } else {
             let (symbol, after) = split_while(rest, |c| c.is_ascii_alphabetic());
-            let slot = BASE.iter().position(|base| *base == symbol)?;
+            let of = made_of(symbol)?;
             let (exponent, after) = match after.strip_prefix('^') {
                 Some(after) => split_while(after, |c| c.is_ascii_digit() || matches!(c, '-' | '.')),
                 None => split_while(after, |c| c.is_ascii_digit() || c == '-'),
@@ -82,7 +85,9 @@ fn multiply(exponents: &mut [f64; BASE.len()], product: &str, sign: f64) -> Opti
                 "" => 1.0,
                 digits => digits.parse::<f64>().ok()?,
             };
-            exponents[slot] += sign * exponent;
+            for (sum, own) in exponents.iter_mut().zip(of) {
+                *sum += sign * exponent * own;
+            }
             rest = after;
         }
         if rest.is_empty() {
@@ -90,6 +95,19 @@ fn multiply(exponents: &mut [f64; BASE.len()], product: &str, sign: f64) -> Opti
         }
         rest = rest.strip_prefix('.')?;
     }
+}
+
+/// Exponents of the base units in a symbol.
+fn made_of(symbol: &str) -> Option<[f64; BASE.len()]> {
+    if let Some(slot) = BASE.iter().position(|base| *base == symbol) {
+        let mut one = [0.0; BASE.len()];
+        one[slot] = 1.0;
+        return Some(one);
+    }
+    DERIVED
+        .iter()
+        .find(|(derived, _)| *derived == symbol)
+        .map(|(_, of)| *of)
 }
 
 fn split_while(text: &str, belongs: impl Fn(char) -> bool) -> (&str, &str) {
@@ -115,6 +133,8 @@ mod tests {
             ("m2/s5", [0.0, 2.0, -5.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
             ("m/s^2.5", [0.0, 1.0, -2.5, 0.0, 0.0, 0.0, 0.0, 0.0]),
             ("kg.m2/s.rad", [1.0, 2.0, -1.0, 0.0, 0.0, 0.0, 0.0, -1.0]),
+            ("N", [1.0, 1.0, -2.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+            ("N2.s/kg", [1.0, 2.0, -3.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
             ("m.s-2", [0.0, 1.0, -2.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
         ] {
             assert_eq!(exponents(name), Some(expected), "{name}");

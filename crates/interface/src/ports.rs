@@ -51,7 +51,9 @@ impl Shape {
 pub enum Role {
     /// An output of the truth and an input of the filter.
     Sensor,
-    /// An input of the truth.
+    /// An input of the truth that a filter may be told of, too.
+    Announced,
+    /// An input of the truth alone.
     Command,
     /// An output of the truth that no filter may see.
     Truth,
@@ -186,7 +188,7 @@ const fn rows(
 
 use Kind::{Boolean, Enumeration, Integer, Real};
 use Part::{Innovation, Measured, Variance};
-use Role::{Command, Estimate, Sensor, Truth, Untold};
+use Role::{Announced, Command, Estimate, Sensor, Truth, Untold};
 use Shape::{Matrix, Scalar, Vector};
 
 /// Units of the 18 states, by groups of three.
@@ -203,10 +205,18 @@ const COVARIANCE: &[&str] = &[
 /// Every port.
 #[rustfmt::skip]
 pub const PORTS: &[Port] = &[
-    row(Command, "a_cmd_c_n", Real, Vector(3), &["m/s2"],
-        &["extra acceleration of the chaser, axes N; acts from the next grid point, the accelerometer feels it"]),
+    row(Announced, "a_cmd_c_n", Real, Vector(3), &["m/s2"],
+        &["extra acceleration of the chaser, axes N; acts from the communication point at which it is set for as long as it stays, and the accelerometer feels it"]),
+    row(Announced, "impulse_c_n", Real, Vector(3), &["m/s"],
+        &["change of the chaser's velocity, axes N, made at once at each change of impulse_count; a mean of the accelerometer has it, a reading of the instant has not"]),
+    row(Announced, "impulse_count", Integer, Scalar, &[],
+        &["ordinal of that change; its value after initialization is where counting begins"]),
     row(Command, "a_dist_t_n", Real, Vector(3), &["m/s2"],
-        &["extra acceleration of the target, axes N; acts from the next grid point"]),
+        &["extra acceleration of the target, axes N; acts as a_cmd_c_n does"]),
+    row(Command, "f_dist_t_bt", Real, Vector(3), &["N"],
+        &["extra force on the target, its body axes, against its mass, as of a vent by mass flow and exhaust velocity; acts as a_cmd_c_n does"]),
+    row(Command, "dcm_cmd_bc_n", Real, Matrix(3, 3), &["1"],
+        &["attitude that the chaser holds: direction cosine matrix from axes N to its body axes; all 0: the mission's own"]),
 
     row(Sensor, "sample_time", Real, Scalar, &["s"], &["epoch of the newest sensor sample; 0 before the first"]),
     row(Sensor, "sample_count", Integer, Scalar, &[], &["ordinal of the newest sensor sample; 0 before the first"]),
@@ -234,6 +244,12 @@ pub const PORTS: &[Port] = &[
         &["inclination of the target's orbit; with metrology"]),
     row(Sensor, "target_orbit.argument_of_latitude", Real, Scalar, &["rad"],
         &["angle from the ascending node to the target, in (-pi, pi]; with metrology"]),
+    row(Sensor, "target_orbit.raan", Real, Scalar, &["rad"],
+        &["right ascension of the ascending node, in (-pi, pi], against axes N; with metrology"]),
+    row(Sensor, "dcm_lvlh_n", Real, Matrix(3, 3), &["1"],
+        &["direction cosine matrix from axes N to the target's LVLH axes at the epoch, as known on board; with metrology, else 0"]),
+    row(Sensor, "omega_lvlh", Real, Vector(3), &["rad/s"],
+        &["angular rate of the target's LVLH axes against N, in them; with metrology"]),
     row(Sensor, "nav_init.x", Real, Vector(18), STATES, &[
         "initial estimate drawn around the truth: position of the target relative to the chaser, axes N; in the LVLH frame as \
          metrology.rho_lvlh",
@@ -263,7 +279,7 @@ pub const PORTS: &[Port] = &[
     row(Truth, "truth.r_tc_n", Real, Vector(3), &["m"], &["true position of the target relative to the chaser, axes N"]),
     row(Truth, "truth.v_tc_n", Real, Vector(3), &["m/s"], &["true velocity of the target relative to the chaser, axes N"]),
     row(Truth, "truth.a_t_n", Real, Vector(3), &["m/s2"],
-        &["true acceleration of the target by vents, burns and a_dist_t_n, axes N, just after this time"]),
+        &["true acceleration of the target by vents, burns, a_dist_t_n and f_dist_t_bt, axes N, just after this time"]),
     row(Truth, "truth.r_c_n", Real, Vector(3), &["m"], &["true position of the chaser, axes N"]),
     row(Truth, "truth.v_c_n", Real, Vector(3), &["m/s"], &["true velocity of the chaser, axes N"]),
     row(Truth, "truth.b_c_bc", Real, Vector(3), &["m/s2"], &["true accelerometer bias, chaser body axes"]),
@@ -275,19 +291,21 @@ pub const PORTS: &[Port] = &[
         &["true relative acceleration less that of Clohessy-Wiltshire motion, LVLH axes, just after this time; with metrology"]),
 
     row(Truth, "truth.event_active", Boolean, Scalar, &[],
-        &["whether a vent, or a burn or a_dist_t_n that no filter is told of, pushes the target just after this time"]),
+        &["whether a vent, or a burn or input that no filter is told of, pushes the target just after this time"]),
 
     row(Untold, "truth.dv_t_n", Real, Vector(3), &["m/s"],
         &["integral of what truth.a_t_n holds and no filter is told of, axes N, from the start to the newest sample"]),
     row(Untold, "truth.event_time", Real, Scalar, &["s"],
         &["time in which truth.event_active held, from the start to the newest sample; -1 where nobody says"]),
 
-    row(Estimate, "est.time", Real, Scalar, &["s"], &["epoch of the sample last used"]),
+    row(Estimate, "est.time", Real, Scalar, &["s"], &["epoch of the sample last used; before the first, the start time"]),
     row(Estimate, "est.count", Integer, Scalar, &[], &["ordinal of the sample last used"]),
     row(Estimate, "est.dimension", Integer, Scalar, &[],
         &["states with a covariance: relative position and velocity, and acceleration where it is estimated"]),
-    row(Estimate, "est.r_tc_n", Real, Vector(3), &["m"], &["target relative to chaser, position, axes N"]),
-    row(Estimate, "est.v_tc_n", Real, Vector(3), &["m/s"], &["target relative to chaser, velocity, axes N"]),
+    row(Estimate, "est.r_tc_n", Real, Vector(3), &["m"],
+        &["target relative to chaser, position, axes N; before the first sample that of nav_init.x; in the LVLH frame through dcm_lvlh_n"]),
+    row(Estimate, "est.v_tc_n", Real, Vector(3), &["m/s"],
+        &["target relative to chaser, velocity, axes N; in the LVLH frame through dcm_lvlh_n and omega_lvlh"]),
     row(Estimate, "est.a_t_n", Real, Vector(3), &["m/s2"], &["unmodelled acceleration of the target, axes N"]),
     row(Estimate, "est.r_c_n", Real, Vector(3), &["m"], &["chaser position (consider state), axes N"]),
     row(Estimate, "est.v_c_n", Real, Vector(3), &["m/s"], &["chaser velocity (consider state), axes N"]),
@@ -304,6 +322,19 @@ pub const PORTS: &[Port] = &[
     row(Estimate, "q.s", Real, Vector(3), &["m/s^2.5"], &["square root of the jerk density in use, axes of the estimate"]),
     row(Estimate, "q.updates", Integer, Scalar, &[], &["times the law changed its process noise"]),
     row(Estimate, "status", Enumeration("Status"), Scalar, &[], &["what the filter is doing"]),
+    row(Estimate, "status_index", Integer, Scalar, &[], &["the same as a number, for tools that know no enumerations"]),
+    row(Estimate, "pred.time", Real, Scalar, &["s"], &["end of the communication step, to which pred.* is propagated"]),
+    row(Estimate, "pred.r_tc_n", Real, Vector(3), &["m"],
+        &["target relative to chaser, position at pred.time, axes N, driven by the accelerometer and by a_cmd_c_n where it is connected"]),
+    row(Estimate, "pred.v_tc_n", Real, Vector(3), &["m/s"], &["target relative to chaser, velocity at pred.time, axes N"]),
+    row(Estimate, "pred.rho_lvlh", Real, Vector(3), &["m"],
+        &["chaser relative to target, position at pred.time, LVLH of the target; in the LVLH frame"]),
+    row(Estimate, "pred.rho_dot_lvlh", Real, Vector(3), &["m/s"],
+        &["chaser relative to target, velocity at pred.time, LVLH of the target; in the LVLH frame"]),
+    row(Estimate, "pred.sigma", Real, Vector(6), &["m", "m/s"], &[
+        "standard deviation of the relative position at pred.time; in the LVLH frame of rho",
+        "standard deviation of the relative velocity at pred.time; in the LVLH frame of rho_dot",
+    ]),
     row(Estimate, "cov.sigma", Real, Vector(18), STATES, &[
         "standard deviation of the relative position; in the LVLH frame of rho",
         "standard deviation of the relative velocity; in the LVLH frame of rho_dot",

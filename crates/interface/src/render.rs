@@ -14,7 +14,11 @@ pub fn interface_document() -> String {
     for (role, title) in [
         (Role::Sensor, "From fmu-truth to fmu-nav"),
         (Role::Untold, "From fmu-truth to the bounds among fmu-nav's filters"),
-        (Role::Command, "Into fmu-truth"),
+        (
+            Role::Announced,
+            "Into fmu-truth, and into fmu-nav where the filter shall know",
+        ),
+        (Role::Command, "Into fmu-truth alone"),
         (Role::Truth, "From fmu-truth, for scoring"),
         (Role::Estimate, "From fmu-nav"),
     ] {
@@ -58,7 +62,14 @@ const INTERFACE_TAIL: &str = "## Rules
   time since the last reading, which the filter propagates with it. The direction cosine matrix is that of the epoch.
 * A filter that is a bound reads `truth.dv_t_n` and `truth.event_time` and stops with an error where nobody says them; whatever stands
   there, any other filter's estimates are the same, bit for bit.
-* Inputs take effect in `fmi2DoStep` only.
+* Inputs take effect in `fmi2DoStep` only. What pushes a vehicle acts from the communication point at which it was set for as long as
+  it stays: a pulse has its momentum at any phase of the truth's grid. All zero, they leave the samples as they are, bit for bit.
+* A filter that is told of the commands (`a_cmd_c_n`, `impulse_c_n`, `impulse_count` connected to it too) propagates with what the
+  accelerometer last read and what the command has changed by since; without an accelerometer, with the command. Truth and filter must
+  get the same command in the same step: truth, filter, guidance is the order of a Gauss-Seidel master.
+* `est.*` holds at `est.time`, the epoch of the last sample used; `pred.*` at the end of the communication step. Both begin as
+  `nav_init.x`.
+* `scenario_index` and `filter_index` stand for the enumerations of the same items where they are not 0; `mission_file` goes before both.
 * LiDAR axes: x_L = z_B, y_L = x_B, z_L = y_B. Camera angles are in the same axes; radio range rate is that of inertial space.
 * Parameters that start at -1 mean \"the mission's own\".
 ";

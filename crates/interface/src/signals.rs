@@ -16,8 +16,12 @@ pub struct Signals {
     pub sample_count: i32,
     /// What each sensor of the target says, in the order of [`Sensor::ALL`].
     pub sensors: [Seen; Sensor::COUNT],
-    /// `target_orbit.*`: distance, its rate, angular momentum, inclination, argument of latitude.
-    pub target_orbit: [f64; 5],
+    /// `target_orbit.*`: distance, its rate, angular momentum, inclination, argument of latitude, node.
+    pub target_orbit: [f64; 6],
+    /// `dcm_lvlh_n`, row by row; all 0 where nobody says it.
+    pub dcm_lvlh_n: [f64; 9],
+    /// `omega_lvlh`, rad/s.
+    pub omega_lvlh: [f64; 3],
     /// `accelerometer.valid`.
     pub accelerometer_valid: bool,
     /// `accelerometer.mean`.
@@ -71,7 +75,9 @@ impl Default for Signals {
             sample_time: 0.0,
             sample_count: 0,
             sensors: [unsaid; Sensor::COUNT],
-            target_orbit: [0.0; 5],
+            target_orbit: [0.0; 6],
+            dcm_lvlh_n: [0.0; 9],
+            omega_lvlh: [0.0; 3],
             accelerometer_valid: true,
             accelerometer_mean: false,
             alpha_c_bc: [0.0; 3],
@@ -98,6 +104,10 @@ pub enum Slot {
     Rows(Sensor, usize, usize),
     /// One number of the target's orbit.
     TargetOrbit(usize),
+    /// Axes of the target's orbit.
+    LvlhAxes,
+    /// Their angular rate.
+    LvlhRate,
     /// Whether the accelerometer measured.
     AccelerometerValid,
     /// Whether it measured the mean.
@@ -121,6 +131,8 @@ impl Slot {
             Self::Time => std::slice::from_ref(&s.sample_time),
             Self::Rows(sensor, first, count) => &s[sensor].z[first..first + count],
             Self::TargetOrbit(place) => &s.target_orbit[place..=place],
+            Self::LvlhAxes => &s.dcm_lvlh_n,
+            Self::LvlhRate => &s.omega_lvlh,
             Self::Alpha => &s.alpha_c_bc,
             Self::Attitude => &s.dcm_bc_n,
             Self::NavInit => &s.nav_init,
@@ -136,6 +148,8 @@ impl Slot {
             Self::Time => std::slice::from_mut(&mut s.sample_time),
             Self::Rows(sensor, first, count) => &mut s[sensor].z[first..first + count],
             Self::TargetOrbit(place) => &mut s.target_orbit[place..=place],
+            Self::LvlhAxes => &mut s.dcm_lvlh_n,
+            Self::LvlhRate => &mut s.omega_lvlh,
             Self::Alpha => &mut s.alpha_c_bc,
             Self::Attitude => &mut s.dcm_bc_n,
             Self::NavInit => &mut s.nav_init,
@@ -197,6 +211,9 @@ pub fn slot(port: &Port) -> Option<Slot> {
         "target_orbit.h" => Slot::TargetOrbit(2),
         "target_orbit.inclination" => Slot::TargetOrbit(3),
         "target_orbit.argument_of_latitude" => Slot::TargetOrbit(4),
+        "target_orbit.raan" => Slot::TargetOrbit(5),
+        "dcm_lvlh_n" => Slot::LvlhAxes,
+        "omega_lvlh" => Slot::LvlhRate,
         "accelerometer.valid" => Slot::AccelerometerValid,
         "accelerometer.mean" => Slot::AccelerometerMean,
         "accelerometer.alpha_c_bc" => Slot::Alpha,

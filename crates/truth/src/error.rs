@@ -29,15 +29,27 @@ pub enum TruthError {
         /// Start time given, s.
         start_time: f64,
     },
-    /// An acceleration input is NaN or infinite.
-    #[error("input {name}[{axis}] is {value} m/s2 at {t} s: it must be a finite number")]
+    /// An input is NaN or infinite.
+    #[error("input {name}[{axis}] is {value} {unit} at {t} s: it must be a finite number")]
     Input {
         /// Name of the vector.
         name: &'static str,
         /// Axis, from 1.
         axis: usize,
-        /// Value given, m/s2.
+        /// Value given.
         value: f64,
+        /// Its unit.
+        unit: &'static str,
+        /// Time of the communication point, s.
+        t: f64,
+    },
+    /// The attitude commanded is none.
+    #[error(
+        "input dcm_cmd_bc_n at {t} s is no rotation, by {defect:.1e}: its rows must be orthonormal and right-handed, or all 0 for the mission's own attitude"
+    )]
+    NotARotation {
+        /// How far its rows are from orthonormal.
+        defect: f64,
         /// Time of the communication point, s.
         t: f64,
     },

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::LazyLock;
 
-use interface::mission::{Choice, Mission, embedded};
+use interface::mission::{Choice, Mission, Quantity, embedded};
 use interface::{Bound, Sensor};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -271,8 +271,12 @@ impl Parameter {
             Effect::Run(apply) => apply(run, values),
             Effect::Sensor(sensor, key) => {
                 let sigma = sensor.sigmas().iter().find(|sigma| sigma.key == key);
+                let quantity = match key {
+                    VIEW => Some(Quantity::Angle),
+                    _ => sigma.map(|sigma| sigma.quantity),
+                };
                 if let (Some(place), Some(&value)) = (run.mission.sensors.place(sensor, key), values.first()) {
-                    *place = sigma.map_or(value, |sigma| sigma.quantity.from_si(value));
+                    *place = quantity.map_or(value, |quantity| quantity.from_si(value));
                 }
             }
         }
@@ -401,6 +405,9 @@ const GENERAL: &[Parameter] = &[
         mission!(|m, v| m.unmodelled.white_m_s1_5 = v)),
 ];
 
+/// Key of the field of view in a sensor's table.
+const VIEW: &str = "field_of_view_deg";
+
 /// The parameters of one sensor of the target.
 fn of_sensor(sensor: Sensor) -> impl Iterator<Item = Parameter> {
     let row = move |key: &'static str, name: &str, unit, bound, about| Parameter {
@@ -418,6 +425,17 @@ fn of_sensor(sensor: Sensor) -> impl Iterator<Item = Parameter> {
         row(sigma.key, sigma.name(), sigma.quantity.unit(), NonNegative, about)
     });
     let word = sensor.word();
+    let view = sensor.looks_ahead().then(|| {
+        let about = format!("full width of the square field of view of the {word}");
+        row(VIEW, "field_of_view", "rad", Bound::Positive, about)
+    });
+    let reach = row(
+        "max_range_m",
+        "max_range",
+        "m",
+        Bound::Positive,
+        format!("distance beyond which the {word} sees nothing"),
+    );
     let faults = [
         (
             "dropout_probability",
@@ -435,7 +453,8 @@ fn of_sensor(sensor: Sensor) -> impl Iterator<Item = Parameter> {
             "noise of an outlier in multiples of the standard deviation, on all channels".to_owned(),
         ),
     ];
-    sigmas.chain(faults.map(|(key, bound, about)| row(key, key, "", bound, about)))
+    let faults = faults.map(|(key, bound, about)| row(key, key, "", bound, about));
+    sigmas.chain(faults).chain(view).chain([reach])
 }
 
 #[cfg(test)]
@@ -541,7 +560,7 @@ mod tests {
                 ("nav_init", _) => format!("initial_error.{quantity}_{}", row.unit.replace('/', "_")),
                 ("unmodelled", "white") => "unmodelled.white_m_s1_5".to_owned(),
                 ("unmodelled", _) => format!("unmodelled.{quantity}_{}", row.unit.replace('/', "_")),
-                (_, "sigma_angle") => format!("sensors.{owner}.sigma_angle_deg"),
+                (_, "sigma_angle" | "field_of_view") => format!("sensors.{owner}.{quantity}_deg"),
                 _ if row.unit.is_empty() => format!("sensors.{owner}.{quantity}"),
                 _ => format!("sensors.{owner}.{quantity}_{}", row.unit.replace('/', "_")),
             };

@@ -1,4 +1,4 @@
-//! One run of a world: time grid, latched inputs, samples.
+//! One run of a world: time grid, inputs, samples.
 
 use astro::frames::lidar_from_body;
 use astro::{ClohessyWiltshire, Lvlh, TargetOrbit};
@@ -12,6 +12,7 @@ use crate::disturbances::schedule;
 use crate::disturbances::unmodelled::Unmodelled;
 use crate::environment::Sky;
 use crate::initial::{draw_estimate, draw_measurement};
+use crate::inputs::Inputs;
 use crate::overrides::Run;
 use crate::sampling::{Scene, Sensors};
 use crate::start::start;
@@ -24,35 +25,6 @@ const SNAP: f64 = 1e-6;
 
 /// Most grid intervals in one step: a typo in a step size should not hang the host.
 const MAX_INTERVALS: f64 = 1e7;
-
-/// Accelerations from outside, m/s2, axes N.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Inputs {
-    /// On the chaser; its accelerometer feels it.
-    pub a_cmd_c_n: Vector3<f64>,
-    /// On the target.
-    pub a_dist_t_n: Vector3<f64>,
-}
-
-impl Inputs {
-    fn add_to(&self, mut push: Push) -> Push {
-        push.chaser.n += self.a_cmd_c_n;
-        push.target.n += self.a_dist_t_n;
-        push.unannounced |= self.a_dist_t_n != Vector3::zeros();
-        push
-    }
-
-    fn check(&self, t: f64) -> Result<(), TruthError> {
-        for (name, vector) in [("a_cmd_c_n", &self.a_cmd_c_n), ("a_dist_t_n", &self.a_dist_t_n)] {
-            for (axis, &value) in (1..).zip(vector) {
-                if !value.is_finite() {
-                    return Err(TruthError::Input { name, axis, value, t });
-                }
-            }
-        }
-        Ok(())
-    }
-}
 
 /// The truth at a communication point.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -134,10 +106,11 @@ struct Felt {
 
 /// One run of a world. It is all state: a clone goes on exactly as the original does.
 ///
-/// The world is integrated on a grid of fixed intervals counted from the start time. What pushes the vehicles is constant
-/// over an interval; the inputs are latched when a communication step first enters one. Samples are taken in order as time
-/// passes them. So a run does not depend on the communication points while its inputs do not change: one that is off the
-/// grid is answered by a trial step from the last grid point, which is then forgotten and draws nothing at random.
+/// The world is integrated on a grid of fixed intervals counted from the start time. What the mission pushes the vehicles with is
+/// constant over an interval. Inputs act from the communication point at which they were set for as long as they stay: a change
+/// splits the interval there, so that no momentum is lost or added. Samples are taken in order as time passes them. So a run does
+/// not depend on the communication points while its inputs do not change: one that is off the grid is answered by a trial step from
+/// the last grid point or split, which is then forgotten and draws nothing at random.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Simulation {
     mission: String,
@@ -147,8 +120,10 @@ pub struct Simulation {
     reference: Option<ClohessyWiltshire>,
     start_time: f64,
     timeline: Timeline,
-    /// Grid intervals completed; `sky`, `state` and `bias` hold at their end.
+    /// Grid intervals completed; `bias` holds at their end.
     interval: u64,
+    /// How far into the present interval the last change of the inputs lies, s; `sky` and `state` hold there.
+    offset: f64,
     sky: Sky,
     state: Vehicles,
     bias: Bias,
@@ -156,8 +131,8 @@ pub struct Simulation {
     unmodelled: Unmodelled,
     felt: Felt,
     untold: Untold,
-    /// Inputs that act over the present interval, once it has been entered.
-    latched: Option<Inputs>,
+    /// Inputs that act.
+    inputs: Inputs,
     sensors: Sensors,
     sample: SensorSample,
     initial_estimate: SVector<f64, 18>,
@@ -168,7 +143,8 @@ impl Simulation {
     /// A run at its start time, before its first sample.
     ///
     /// * `start_time`: s; the mission's clock, on which its events stand, starts here.
-    /// * `inputs`: as set at the start time; they only show in [`Moment::a_t_n`] and in the initial estimate.
+    /// * `inputs`: as set at the start time; they show in [`Moment::a_t_n`] and in the initial estimate. Their `impulse_count` is
+    ///   where counting begins, and no impulse.
     ///
     /// # Errors
     /// When the mission cannot be read, a parameter is out of range, or the start time or an input is not finite.
@@ -189,7 +165,7 @@ impl Simulation {
         let begin = Instant {
             sky: world.sky(0.0),
             state,
-            push: inputs.add_to(unmodelled.add_to(world.push_over(&timeline, 0))),
+            push: inputs.add_to(unmodelled.add_to(world.push_over(&timeline, 0)), world.target_kg()),
             b_c_bc: bias.now,
         };
         let now = moment(&world, reference.as_ref(), start_time, &begin);
@@ -207,13 +183,14 @@ impl Simulation {
             start_time,
             timeline,
             interval: 0,
+            offset: 0.0,
             sky: begin.sky,
             state,
             bias,
             unmodelled,
             felt: Felt::default(),
             untold: Untold::default(),
-            latched: None,
+            inputs: *inputs,
             sensors,
             sample,
             initial_estimate,
@@ -223,15 +200,16 @@ impl Simulation {
 
     /// Goes on to the communication point `t`, s.
     ///
-    /// * `inputs`: as set now; they act from the first grid interval that is entered here, and on no earlier one.
+    /// * `inputs`: as set now; they act from the present communication point on.
     ///
     /// # Errors
-    /// When an input is not finite, `t` lies before the present or absurdly far ahead, or the motion leaves the numbers. The
+    /// When an input makes no sense, `t` lies before the present or absurdly far ahead, or the motion leaves the numbers. The
     /// first three change nothing; after the last the run cannot go on.
     pub fn advance_to(&mut self, t: f64, inputs: &Inputs) -> Result<(), TruthError> {
         inputs.check(t)?;
         let t = self.checked_end(t)?;
         let end = self.locate(t - self.start_time);
+        self.take_over(inputs);
         let mut sampled = None;
         loop {
             let elapsed = self.sensors.next();
@@ -242,16 +220,16 @@ impl Simulation {
             if !due {
                 break;
             }
-            self.complete_intervals(place.interval, inputs)?;
-            let instant = self.instant(place.offset, inputs);
+            self.complete_intervals(place.interval)?;
+            let instant = self.instant(place.offset);
             self.take_sample(elapsed, place.offset, &instant);
             sampled = Some((place, instant));
         }
-        self.complete_intervals(end.interval, inputs)?;
+        self.complete_intervals(end.interval)?;
         let instant = match sampled {
             // The usual case: the communication point is that of a sample.
             Some((place, instant)) if place == end => instant,
-            _ => self.instant(end.offset, inputs),
+            _ => self.instant(end.offset),
         };
         self.now = moment(&self.world, self.reference.as_ref(), t, &instant);
         finite(&self.now.state, t)
@@ -317,49 +295,88 @@ impl Simulation {
         }
     }
 
+    /// Lets inputs act from the present communication point on.
+    ///
+    /// Where they push the vehicles otherwise than before, the motion up to here is kept and goes on from here. Where they do not,
+    /// nothing is split, so that samples keep their bits.
+    fn take_over(&mut self, inputs: &Inputs) {
+        let fired = inputs.impulse_count != self.inputs.impulse_count;
+        if fired || !inputs.push_as(&self.inputs) {
+            let here = self.locate(self.now.time - self.start_time);
+            self.go_to(here.offset);
+        }
+        if fired {
+            self.state.v_c += inputs.impulse_c_n;
+            if self.sensors.measure_the_mean() {
+                self.felt.there = self.felt.there.map(|_| self.state);
+                self.felt.impulse += self.world.axes.held_in_space(self.sky.t, &inputs.impulse_c_n);
+            }
+        }
+        self.inputs = *inputs;
+    }
+
     /// Integrates to the begin of `interval`.
-    fn complete_intervals(&mut self, interval: u64, inputs: &Inputs) -> Result<(), TruthError> {
+    fn complete_intervals(&mut self, interval: u64) -> Result<(), TruthError> {
         let grid = self.world.grid;
         while self.interval < interval {
-            let push = self.push(self.latched.as_ref().unwrap_or(inputs));
-            let until = (self.interval + 1) as f64 * grid;
-            let (felt_from, from) = (self.felt_from(), self.state);
-            self.world.step(&mut self.sky, &mut self.state, &push, grid);
-            let begin = self.interval as f64 * grid;
-            self.untold = (self.untold).after(&self.world, &push, begin, grid, [&from, &self.state]);
-            if let Some(begin) = felt_from {
-                let end = self.state;
-                self.feel(&push, &begin, until, &end);
-                self.felt.there = None;
-            }
+            let split = self.offset > 0.0;
+            self.go_to(grid);
+            self.felt.there = None;
             self.bias.step(grid);
             self.unmodelled.step();
             self.interval += 1;
-            self.latched = None;
-            finite(&self.state, self.start_time + until)?;
+            self.offset = 0.0;
+            let begin = self.interval as f64 * grid;
+            if split {
+                // Parts of an interval do not add up to it exactly.
+                self.sky = self.world.sky(begin);
+            }
+            finite(&self.state, self.start_time + begin)?;
         }
         Ok(())
     }
 
-    /// The world `offset` seconds into the present interval.
-    fn instant(&mut self, offset: f64, inputs: &Inputs) -> Instant {
-        if offset <= 0.0 {
-            return Instant {
-                sky: self.sky,
-                state: self.state,
-                push: self.push(self.latched.as_ref().unwrap_or(inputs)),
-                b_c_bc: self.bias.now,
-            };
+    /// Integrates to `offset` seconds into the present interval, or to its end, and stays there.
+    fn go_to(&mut self, offset: f64) {
+        let length = offset - self.offset;
+        if length <= 0.0 {
+            return;
         }
-        let latched = *self.latched.get_or_insert(*inputs);
-        let push = self.push(&latched);
+        let push = self.push();
+        let begin = self.interval as f64 * self.world.grid + self.offset;
+        let (felt_from, from) = (self.felt_from(), self.state);
+        self.world.step(&mut self.sky, &mut self.state, &push, length);
+        self.untold = (self.untold).after(&self.world, &push, begin, length, [&from, &self.state]);
+        self.offset = offset;
+        if let Some(from) = felt_from {
+            let end = self.state;
+            let until = if offset < self.world.grid {
+                self.interval as f64 * self.world.grid + offset
+            } else {
+                (self.interval + 1) as f64 * self.world.grid
+            };
+            self.feel(&push, &from, until, &end);
+            self.felt.there = Some(end);
+        }
+    }
+
+    /// The world `offset` seconds into the present interval.
+    fn instant(&self, offset: f64) -> Instant {
+        let push = self.push();
         let (mut sky, mut state) = (self.sky, self.state);
-        self.world.step(&mut sky, &mut state, &push, offset);
+        let length = offset - self.offset;
+        if length > 0.0 {
+            self.world.step(&mut sky, &mut state, &push, length);
+        }
         Instant {
             sky,
             state,
             push,
-            b_c_bc: self.bias.after(offset),
+            b_c_bc: if offset > 0.0 {
+                self.bias.after(offset)
+            } else {
+                self.bias.now
+            },
         }
     }
 
@@ -371,12 +388,12 @@ impl Simulation {
             self.feel(&instant.push, &begin, elapsed, &instant.state);
             self.felt.there = Some(instant.state);
         }
-        let mean = self.mean_force(elapsed, &instant.state);
+        let mean = self.mean_force(elapsed, instant);
         let scene = scene(&self.world, self.sensors.measure_in_lvlh(), instant, mean);
         let time = self.start_time + elapsed;
         self.sensors.sample(&mut self.sample, time, elapsed, &scene);
-        let (begin, path) = (elapsed - offset, [&self.state, &instant.state]);
-        self.sample.untold = (self.untold).after(&self.world, &instant.push, begin, offset, path);
+        let (length, path) = (offset - self.offset, [&self.state, &instant.state]);
+        self.sample.untold = (self.untold).after(&self.world, &instant.push, elapsed - length, length, path);
     }
 
     /// State up to which the specific force has been summed, where the accelerometer measures its mean.
@@ -387,7 +404,7 @@ impl Simulation {
 
     /// What the accelerometer has felt since its last sample, in the mean and in body axes as they are now, if that is what it
     /// measures now: a strapdown unit turns what it felt earlier along with its axes.
-    fn mean_force(&mut self, elapsed: f64, state: &Vehicles) -> Option<Vector3<f64>> {
+    fn mean_force(&mut self, elapsed: f64, instant: &Instant) -> Option<Vector3<f64>> {
         if !(self.sensors.measure_the_mean() && self.sensors.accelerometer_due(elapsed)) {
             return None;
         }
@@ -395,7 +412,7 @@ impl Simulation {
         self.felt.since = elapsed;
         self.felt.impulse = Vector3::zeros();
         let mean_n = self.world.axes.held_in_n(elapsed, &mean);
-        Some(self.world.dcm_bc_n(elapsed, state) * mean_n)
+        Some(self.world.dcm_bc_n(elapsed, &instant.state, &instant.push) * mean_n)
     }
 
     /// Goes on with the integral of the specific force to `until`, s since the start of the run and within the present interval
@@ -417,12 +434,11 @@ impl Simulation {
         self.felt.until = until;
     }
 
-    /// What acts over the present interval, given the inputs that act.
-    fn push(&self, inputs: &Inputs) -> Push {
-        inputs.add_to(
-            self.unmodelled
-                .add_to(self.world.push_over(&self.timeline, self.interval)),
-        )
+    /// What acts over the present interval.
+    fn push(&self) -> Push {
+        let scheduled = self.world.push_over(&self.timeline, self.interval);
+        self.inputs
+            .add_to(self.unmodelled.add_to(scheduled), self.world.target_kg())
     }
 }
 
@@ -461,21 +477,25 @@ fn scene(world: &World, in_lvlh: bool, instant: &Instant, mean_force_c_bc: Optio
         push,
         b_c_bc,
     } = instant;
-    let dcm_bc_n = world.dcm_bc_n(sky.t, state);
+    let dcm_bc_n = world.dcm_bc_n(sky.t, state, push);
     let mut target = sensors::Scene {
         r_tc_n: state.r_tc(),
         v_tc_n: state.v_tc(),
         dcm_l_n: lidar_from_body() * dcm_bc_n,
         lvlh: Vector6::repeat(f64::NAN),
     };
+    let mut target_axes = None;
     if in_lvlh {
         let a_t_n = world.target_acceleration(sky, state, push);
-        let (rho, rho_dot) = Lvlh::new(&state.r_t, &state.v_t, &a_t_n).relative(&state.r_c, &state.v_c);
+        let lvlh = Lvlh::new(&state.r_t, &state.v_t, &a_t_n);
+        let (rho, rho_dot) = lvlh.relative(&state.r_c, &state.v_c);
         target.lvlh = metrology::measure(&rho, &rho_dot);
+        target_axes = Some(*lvlh.axes());
     }
     Scene {
         target,
         target_orbit: in_lvlh.then(|| TargetOrbit::from_state(&state.r_t, &state.v_t)),
+        target_axes,
         force_c_n: world.force_on_chaser(sky, state, push),
         mean_force_c_bc,
         dcm_bc_n,

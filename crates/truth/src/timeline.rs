@@ -54,6 +54,8 @@ pub struct Push {
     pub chaser: Thrust,
     /// Whether something that no filter is told of pushes the target: a vent, a burn, an input.
     pub unannounced: bool,
+    /// Attitude that the chaser is commanded to hold, N to its body axes; `None`: the mission's own.
+    pub dcm_cmd_bc_n: Option<Matrix3<f64>>,
 }
 
 /// Which vehicle an event pushes.

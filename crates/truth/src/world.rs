@@ -26,6 +26,7 @@ pub(crate) struct World {
 /// A vehicle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Craft {
+    mass_kg: f64,
     surface: Surface,
     attitude: Attitude,
 }
@@ -33,6 +34,7 @@ struct Craft {
 impl Craft {
     fn of(vehicle: &mission::Vehicle) -> Self {
         Self {
+            mass_kg: vehicle.mass_kg,
             surface: Surface::of(vehicle),
             attitude: Attitude::of(vehicle.attitude),
         }
@@ -54,6 +56,11 @@ impl World {
         })
     }
 
+    /// Mass of the target, kg.
+    pub(crate) fn target_kg(&self) -> f64 {
+        self.target.mass_kg
+    }
+
     /// What depends on time alone at `t`, s since the start of the run.
     pub(crate) fn sky(&self, t: f64) -> Sky {
         self.environment.sky(t)
@@ -69,7 +76,7 @@ impl World {
             v_t: self.target_acceleration(sky, state, push),
             r_c: state.v_c,
             v_c: self.environment.acceleration(sky, &self.chaser_place(state))
-                + self.push_on_chaser(sky.t, state, &push.chaser),
+                + self.push_on_chaser(sky.t, state, push),
         }
     }
 
@@ -88,7 +95,7 @@ impl World {
 
     /// Acceleration of the chaser beside gravity, which its accelerometer feels, axes N, m/s2.
     pub(crate) fn force_on_chaser(&self, sky: &Sky, state: &Vehicles, push: &Push) -> Vector3<f64> {
-        self.environment.push(sky, &self.chaser_place(state)) + self.push_on_chaser(sky.t, state, &push.chaser)
+        self.environment.push(sky, &self.chaser_place(state)) + self.push_on_chaser(sky.t, state, push)
     }
 
     /// The same in axes that are fixed in space.
@@ -128,16 +135,17 @@ impl World {
         self.push_on_target(t, state, &push.target) - self.push_on_target(t, state, &push.announced)
     }
 
-    /// Acceleration of the chaser by `thrust`, axes N, m/s2.
+    /// Acceleration of the chaser by what pushes it, axes N, m/s2.
     ///
     /// * `t`: s since the start of the run.
     #[inline]
-    pub(crate) fn push_on_chaser(&self, t: f64, state: &Vehicles, thrust: &Thrust) -> Vector3<f64> {
+    pub(crate) fn push_on_chaser(&self, t: f64, state: &Vehicles, push: &Push) -> Vector3<f64> {
+        let thrust = &push.chaser;
         match &thrust.turning {
             None => thrust.n,
             Some(turning) => {
                 let rtn = || self.dcm_rtn_n(&state.r_c, &state.v_c);
-                thrust.n + turning.resolved(|| self.dcm_bc_n(t, state), rtn)
+                thrust.n + turning.resolved(|| self.dcm_bc_n(t, state, push), rtn)
             }
         }
     }
@@ -156,10 +164,13 @@ impl World {
         })
     }
 
-    /// Attitude of the chaser: maps N to chaser body axes.
+    /// Attitude of the chaser: maps N to chaser body axes; as commanded, or as the mission has it.
     ///
     /// * `t`: s since the start of the run.
-    pub(crate) fn dcm_bc_n(&self, t: f64, state: &Vehicles) -> Matrix3<f64> {
+    pub(crate) fn dcm_bc_n(&self, t: f64, state: &Vehicles, push: &Push) -> Matrix3<f64> {
+        if let Some(commanded) = push.dcm_cmd_bc_n {
+            return commanded;
+        }
         self.chaser.attitude.dcm_b_n(&Sight {
             t,
             axes: &self.axes,

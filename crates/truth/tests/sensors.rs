@@ -207,7 +207,7 @@ fn a_sensor_more_moves_no_other_draw() {
             let mut with = *with;
             // The target's orbit goes with whatever measures in its axes.
             if sensors::of(left_out).in_lvlh() {
-                with.target_orbit = without.target_orbit;
+                (with.target_orbit, with.target_axes) = (without.target_orbit, without.target_axes);
             }
             with.sensors[left_out as usize] = without[left_out];
             assert_eq!(with, without, "without {left_out:?}");

@@ -29,6 +29,7 @@ fn shove() -> Inputs {
     Inputs {
         a_cmd_c_n: Vector3::new(0.0, 1e-3, 0.0),
         a_dist_t_n: Vector3::new(0.0, 0.0, 2e-3),
+        ..Inputs::default()
     }
 }
 
@@ -88,7 +89,7 @@ proptest! {
         let params = with(&Params::of_scenario(scenario), &[("vent.scale", 1e3), ("lidar.dropout_probability", 0.3), ("metrology.dropout_probability", 0.3)]);
         let inputs = shove();
         let mut run = start(&params);
-        // Stops inside an interval, whose inputs are latched.
+        // Stops inside an interval, which the next step splits.
         run.advance_to(before, &inputs).unwrap();
         let mut copy = run.clone();
         let mut restored: Simulation = postcard::from_bytes(&postcard::to_stdvec(&run).unwrap()).unwrap();
@@ -297,7 +298,7 @@ fn one_fault_moves_no_other_draw() {
 }
 
 #[test]
-fn inputs_act_from_the_next_grid_point() {
+fn inputs_act_from_where_they_are_set() {
     let path = |switch: f64| {
         let mut run = start(&noise_free());
         advance(&mut run, 5.0);
@@ -310,15 +311,8 @@ fn inputs_act_from_the_next_grid_point() {
         advance(&mut run, 8.0);
         run.now().state
     };
-    for (switch, seconds) in [
-        (5.0, 3.0),
-        (5.25, 2.0),
-        (6.0, 2.0),
-        (6.999, 1.0),
-        (7.0, 1.0),
-        (7.000_000_5, 1.0),
-    ] {
-        let pushed = path(switch);
+    for switch in [5.0, 5.25, 6.0, 6.999, 7.0, 7.75] {
+        let (pushed, seconds) = (path(switch), 8.0 - switch);
         // Gravity changes by 1e-6 / s2 times the few millimetres of displacement.
         let gained = (pushed.v_c - free.v_c, pushed.v_t - free.v_t);
         assert!(
@@ -334,6 +328,197 @@ fn inputs_act_from_the_next_grid_point() {
     }
 }
 
+/// 30 % of pulse width at any phase are 30 % of the momentum, in every world and in any communication step, and the same motion.
+#[test]
+fn a_pulse_has_its_momentum_at_any_phase_and_step() {
+    let push = Inputs {
+        a_cmd_c_n: Vector3::new(1e-2, 0.0, 0.0),
+        ..Inputs::default()
+    };
+    for scenario in 1..=Embedded::scenarios().count() as i32 {
+        let quiet = with(&Params::of_scenario(scenario), &[("vent.scale", 0.0)]);
+        let flown = |width: f64, phase: f64, step: f64| {
+            let mut run = start(&quiet);
+            advance(&mut run, 2.0);
+            // Ten periods of a second, all edges on a grid of 0.025 s.
+            let edge = |time: f64| (time / 0.025).round() as i64;
+            let stride = edge(step);
+            let on = |k: i64| (k - edge(phase)).rem_euclid(40) < edge(width) && k < 400;
+            let mut k = 0;
+            while k < 440 {
+                // As far as nothing changes, in steps of the master's; a change is a communication point.
+                let mut to = k + 1;
+                while to < 440 && to % stride != 0 && on(to) == on(k) {
+                    to += 1;
+                }
+                let inputs = if on(k) { push } else { Inputs::default() };
+                run.advance_to(2.0 + 0.025 * to as f64, &inputs).unwrap();
+                k = to;
+            }
+            run.now().state
+        };
+        let free = flown(0.0, 0.0, 1.0);
+        let gain = |state: &truth::Vehicles| (state.v_c - free.v_c).x;
+        for step in [0.025, 0.25, 1.0] {
+            for phase in (0..8).map(|i| 0.125 * f64::from(i)) {
+                // Pulses within the ten seconds: those that begin before their end, and the rest of one that began before them.
+                let state = flown(0.3, phase, step);
+                // Gravity turns 0.15 m of displacement into 1e-6 m/s.
+                assert!(
+                    (gain(&state) / 0.03 - 1.0).abs() < 1e-4,
+                    "{scenario}, step {step}, phase {phase}: {}",
+                    gain(&state)
+                );
+                let fine = flown(0.3, phase, 0.025);
+                assert!((state.r_c - fine.r_c).amax() < 1e-8 && (state.v_c - fine.v_c).amax() < 1e-9);
+            }
+        }
+    }
+    // The pulse [2.25, 2.75) s of 1e-2 m/s2 in steps of 0.25 s.
+    let mut run = start(&noise_free());
+    let mut free = run.clone();
+    for k in 1..=16 {
+        let on = k == 10 || k == 11;
+        run.advance_to(0.25 * f64::from(k), &if on { push } else { Inputs::default() })
+            .unwrap();
+    }
+    advance(&mut free, 4.0);
+    let gained = (run.now().state.v_c - free.now().state.v_c).x;
+    assert!((gained - 0.005).abs() < 1e-7, "{gained}");
+}
+
+#[test]
+fn an_impulse_acts_once_and_at_once() {
+    let fire = |count: i32| Inputs {
+        impulse_c_n: Vector3::new(0.0, 0.25, -0.5),
+        impulse_count: count,
+        ..Inputs::default()
+    };
+    for scenario in 1..=Embedded::scenarios().count() as i32 {
+        let params = Params::of_scenario(scenario);
+        // What stands there at the start is where counting begins.
+        let mut run = Simulation::new(&params, 0.0, &fire(7)).unwrap();
+        let mut free = run.clone();
+        for t in [3.3, 4.0, 5.7] {
+            run.advance_to(t, &fire(7)).unwrap();
+            free.advance_to(t, &fire(7)).unwrap();
+        }
+        assert_eq!(run, free);
+        // It acts between this communication point and any later one.
+        for (t, count) in [
+            (5.700_001, 8),
+            (6.0, 8),
+            (6.5, 8),
+            (8.0, 8),
+            (8.25, 9),
+            (9.0, 9),
+            (9.001, 8),
+        ] {
+            run.advance_to(t, &fire(count)).unwrap();
+            free.advance_to(t, &fire(7)).unwrap();
+            let fired = match t {
+                8.25.. if t > 9.0 => 3.0,
+                8.25.. => 2.0,
+                _ => 1.0,
+            };
+            let gained = run.now().state.v_c - free.now().state.v_c;
+            assert!(
+                (gained - fire(1).impulse_c_n * fired).amax() < 1e-5,
+                "{scenario}, {t} s: {gained}"
+            );
+            // But for the rounding of a step in two parts.
+            assert!((run.now().state.v_t - free.now().state.v_t).amax() < 1e-11);
+        }
+    }
+}
+
+/// An accelerometer that measures the mean feels an impulse; one that measures the instant after its epoch does not.
+#[test]
+fn the_mean_of_an_accelerometer_has_the_impulse() {
+    let mission = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../missions/fast_approach.toml");
+    let mut params = Params::default();
+    params.choice.mission_file = mission.display().to_string();
+    let mut run = start(&params);
+    advance(&mut run, 1.0);
+    let mut free = run.clone();
+    let fire = Inputs {
+        impulse_c_n: Vector3::new(1e-2, -2e-2, 3e-2),
+        impulse_count: 1,
+        ..Inputs::default()
+    };
+    run.advance_to(1.02, &fire).unwrap();
+    advance(&mut free, 1.02);
+    let sum = |run: &Simulation| run.sample().dcm_bc_n.transpose() * run.sample().accelerometer.alpha_c_bc * 0.02;
+    assert!(run.sample().accelerometer.mean && run.sample().accelerometer.valid);
+    let felt = sum(&run) - sum(&free);
+    // The chaser turns by a milliradian at most.
+    assert!((felt - fire.impulse_c_n).amax() < 1e-4, "{felt}");
+}
+
+#[test]
+fn a_force_acts_on_the_targets_mass_in_its_body_axes() {
+    let force = Inputs {
+        f_dist_t_bt: Vector3::new(0.3, 0.0, 0.4),
+        ..Inputs::default()
+    };
+    let params = with(&noise_free(), &[("target.mass", 50.0)]);
+    let mut run = start(&params);
+    advance(&mut run, 3.5);
+    let mut free = run.clone();
+    run.advance_to(4.0, &force).unwrap();
+    advance(&mut free, 4.0);
+    let gained = run.now().state.v_t - free.now().state.v_t;
+    assert!((gained.norm() - 0.5 / 50.0 * 0.5).abs() < 1e-7, "{gained}");
+    assert!(run.now().event_active && (run.now().a_t_n.norm() - 0.01).abs() < 1e-12);
+    assert!((run.now().state.v_c - free.now().state.v_c).amax() < 1e-11);
+}
+
+/// A commanded attitude is what the sensors look from and what body axes are; without one the mission's own pointing goes on.
+#[test]
+fn an_attitude_is_held_as_commanded() {
+    let mut run = start(&noise_free());
+    advance(&mut run, 2.0);
+    let own = run.sample().dcm_bc_n;
+    // A tenth of a radian about the body's z axis, away from the line of sight.
+    let off = nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), 0.02).into_inner() * own;
+    let commanded = Inputs {
+        dcm_cmd_bc_n: off,
+        ..Inputs::default()
+    };
+    run.advance_to(3.0, &commanded).unwrap();
+    assert_eq!(run.sample().dcm_bc_n, off);
+    let sight = astro::frames::lidar_from_body() * off * run.now().state.r_tc();
+    let seen = run.sample()[Sensor::Lidar];
+    assert!(
+        seen.valid && (seen.z[1] - (sight.x / sight.z).atan()).abs() < 1e-12,
+        "{seen:?}"
+    );
+    assert!((seen.z[2] - (sight.y / sight.z).atan()).abs() < 1e-12 && seen.z[1].abs() + seen.z[2].abs() > 0.01);
+    // Beyond 2.5 deg it sees nothing.
+    let away = nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), 0.05).into_inner() * own;
+    run.advance_to(
+        4.0,
+        &Inputs {
+            dcm_cmd_bc_n: away,
+            ..commanded
+        },
+    )
+    .unwrap();
+    assert!(!run.sample()[Sensor::Lidar].valid);
+    advance(&mut run, 5.0);
+    assert!((run.sample().dcm_bc_n - own).amax() < 1e-2 && run.sample()[Sensor::Lidar].valid);
+    let skew = Inputs {
+        dcm_cmd_bc_n: own * 1.001,
+        ..commanded
+    };
+    let before = run.clone();
+    assert!(matches!(
+        run.advance_to(6.0, &skew),
+        Err(TruthError::NotARotation { .. })
+    ));
+    assert_eq!(run, before);
+}
+
 #[test]
 fn inputs_show_in_readings_and_truth() {
     let mut run = start(&noise_free());
@@ -341,11 +526,9 @@ fn inputs_show_in_readings_and_truth() {
     let alpha_n = run.sample().dcm_bc_n.transpose() * (run.sample().accelerometer.alpha_c_bc - run.now().b_c_bc);
     assert!((alpha_n - shove().a_cmd_c_n).amax() < 1e-17, "{alpha_n}");
     assert_eq!(run.now().a_t_n, shove().a_dist_t_n);
-    // The interval is entered with them, so they are what acts there whatever is set later.
     run.advance_to(10.5, &shove()).unwrap();
-    advance(&mut run, 10.75);
     assert_eq!(run.now().a_t_n, shove().a_dist_t_n);
-    advance(&mut run, 11.0);
+    advance(&mut run, 10.75);
     assert_eq!(run.now().a_t_n, Vector3::zeros());
     let at_start = Simulation::new(&noise_free(), 0.0, &shove()).unwrap();
     assert_eq!(at_start.now().a_t_n, shove().a_dist_t_n);
@@ -496,7 +679,7 @@ fn a_bound_is_told_the_velocity_that_was_given_and_how_long_it_took() {
         let steps = 10 * (first_vent.max(30.0).ceil() as u32 + 40);
         for k in 0..steps {
             let input = if k >= 300 { shove() } else { quiet };
-            // The middle of a step; inputs act from the grid point on which they are set.
+            // The middle of a step; inputs act from the middle on which they are set.
             let middle = 0.1 * f64::from(k) + 0.05;
             run.advance_to(middle, &input).unwrap();
             given += run.now().a_t_n * 0.1;

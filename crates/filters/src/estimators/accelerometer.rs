@@ -2,6 +2,7 @@
 //! interval that it was taken over.
 
 use super::estimator::Gap;
+use crate::commands::Commands;
 use crate::dynamics::Thrust;
 use crate::sample::{Sample, SpecificForce};
 use crate::units::Units;
@@ -21,6 +22,8 @@ pub(super) struct Accelerometer {
     held_for: f64,
     /// Drives the steps until the next reading; `None` when below the gate or before the first.
     held: Option<Thrust>,
+    /// Commanded acceleration that the newest reading has in it, axes N.
+    command_n: Vector3<f64>,
     mean: Mean,
 }
 
@@ -79,6 +82,7 @@ impl Accelerometer {
             noise_enters,
             held_for: 0.0,
             held: None,
+            command_n: Vector3::zeros(),
             mean: Mean::default(),
         }
     }
@@ -222,6 +226,38 @@ impl Accelerometer {
             });
         }
         driven
+    }
+
+    /// Whether the command says what a gap's readings do not: not where the gap ends with the mean of what it was.
+    pub(super) fn leaves_to_command(sample: &Sample) -> bool {
+        !matches!(sample.accelerometer, Some(SpecificForce::Mean(_)))
+    }
+
+    /// Commanded acceleration that drives by way of the reading which is held, axes N.
+    pub(super) fn command_held(&self) -> Vector3<f64> {
+        self.held.map_or_else(Vector3::zeros, |_| self.command_n)
+    }
+
+    /// Takes note of the velocity that a command has credited to a gap at whose end there is no mean; it will be part of one.
+    pub(super) fn credit(&mut self, velocity_n: &Vector3<f64>) {
+        if self.mean.last_s.is_some() {
+            self.mean.credited_n += velocity_n;
+        }
+    }
+
+    /// Takes note of what was commanded while the reading of a sample was taken.
+    pub(super) fn remember(&mut self, sample: &Sample, since_s: f64, commands: &Commands) {
+        let from_s = match sample.accelerometer {
+            None => return,
+            Some(SpecificForce::Instant(_)) => sample.time,
+            Some(SpecificForce::Mean(_)) => since_s,
+        };
+        self.command_n = commands.mean(from_s, sample.time) / self.units.acceleration();
+    }
+
+    /// Begin of the interval of which the next mean is one, s; `None` before the first.
+    pub(super) fn mean_since(&self) -> Option<f64> {
+        self.mean.last_s
     }
 
     /// Takes note of a reading of the instant.

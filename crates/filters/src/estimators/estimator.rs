@@ -1,5 +1,6 @@
 //! What an estimator offers to the navigator.
 
+use crate::commands::Commands;
 use crate::error::FilterError;
 use crate::innovation::Innovation;
 use crate::laws::{Adaptation, Step};
@@ -23,6 +24,8 @@ pub(crate) struct Gap {
     pub length_s: f64,
     /// Start of the run, s.
     pub start_s: f64,
+    /// Longest step in which it is crossed, s.
+    pub step_s: f64,
 }
 
 /// A state, perhaps with its covariance, and what is known of its motion and of the sensors. Several of them, or one of several
@@ -39,8 +42,15 @@ pub(crate) trait Estimator {
 
     /// Time update over the gap, up to the epoch of `sample`.
     ///
+    /// * `commands`: what the chaser was commanded to do, as far as that is known.
     /// * returns: transition of the target's nine states over the whole gap.
-    fn propagate(&mut self, gap: &Gap, sample: &Sample, law: &dyn Adaptation) -> Result<TargetMatrix, FilterError>;
+    fn propagate(
+        &mut self,
+        gap: &Gap,
+        sample: &Sample,
+        law: &dyn Adaptation,
+        commands: &Commands,
+    ) -> Result<TargetMatrix, FilterError>;
 
     /// Measurement update with what the sample offers.
     ///
@@ -74,13 +84,13 @@ pub(crate) trait Estimator {
     fn defect(&self, t_s: f64) -> Option<FilterError>;
 }
 
-/// Longest step of one propagation, s; a gap between samples is crossed in equal parts no longer than this.
-const LONGEST_STEP: f64 = 1.0;
-
 impl Gap {
+    /// Longest step of one propagation, s; a gap between samples is crossed in equal parts no longer than this.
+    pub(crate) const LONGEST_STEP: f64 = 1.0;
+
     /// Number of equal parts in which the gap is crossed.
     pub(super) fn parts(&self) -> u32 {
-        (self.length_s / LONGEST_STEP - 1e-9).ceil().max(1.0) as u32
+        (self.length_s / self.step_s - 1e-9).ceil().max(1.0) as u32
     }
 }
 

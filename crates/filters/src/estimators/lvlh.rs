@@ -3,6 +3,7 @@
 
 use super::estimator::{Estimator, Gap, Reported, defect, stand_in};
 use super::told::Manoeuvres;
+use crate::commands::Commands;
 use crate::dynamics::AccelerationModel;
 use crate::dynamics::clohessy_wiltshire::Circular;
 use crate::dynamics::j2::J2;
@@ -18,7 +19,7 @@ use crate::update::ConstantGain;
 use crate::update::kalman::{self, Gaussian, Measurement};
 use astro::{ClohessyWiltshire, J2RelativeMotion};
 use interface::{Navigation, Sensor};
-use nalgebra::{Matrix3, SMatrix, Vector6};
+use nalgebra::{Matrix3, SMatrix, Vector3, Vector6};
 use numerics::spd;
 use serde::{Deserialize, Serialize};
 
@@ -134,19 +135,35 @@ impl Estimator for LvlhState {
         self.core.is_some()
     }
 
-    fn propagate(&mut self, gap: &Gap, sample: &Sample, law: &dyn Adaptation) -> Result<TargetMatrix, FilterError> {
+    fn propagate(
+        &mut self,
+        gap: &Gap,
+        sample: &Sample,
+        law: &dyn Adaptation,
+        commands: &Commands,
+    ) -> Result<TargetMatrix, FilterError> {
         let mut total = TargetMatrix::identity();
         let Some(core) = &mut self.core else { return Ok(total) };
         let motion = self.motion.get_mut();
         let mut orbit = motion.orbit_before(&sample.target_orbit, gap.length_s, gap.parts());
         let mut t = gap.from_s - gap.start_s;
-        for dt in self.told.steps(t, gap.length_s, gap.parts()) {
+        // Nobody feels what the chaser does in this frame, so a command is all there is.
+        let axes = sample.target_axes.filter(|_| !commands.is_silent());
+        let cuts = axes.iter().flat_map(|_| commands.edges(gap.from_s, gap.length_s));
+        for dt in self.told.steps(t, gap.length_s, gap.parts(), cuts) {
+            let begin_s = gap.start_s + t;
+            if let Some(axes) = &axes {
+                let mut rho_dot = core.x.fixed_rows_mut::<3>(3);
+                rho_dot += axes.dcm_lvlh_n * commands.impulse(begin_s, begin_s + dt);
+            }
             let (x, mut f) = motion.step(&core.x, dt, &mut orbit, self.acceleration);
             core.x = x;
-            if !self.told.is_empty() {
+            if !self.told.is_empty() || axes.is_some() {
                 // Constant over the step; how the axes turn meanwhile, 1e-3 rad, is left out.
                 let (target, chaser) = self.told.at(t + dt / 2.0, None, &Matrix3::identity());
-                let a = chaser - target;
+                let commanded =
+                    axes.map_or_else(Vector3::zeros, |axes| axes.dcm_lvlh_n * commands.at(begin_s + dt / 2.0));
+                let a = chaser - target + commanded;
                 let mut rho = core.x.fixed_rows_mut::<3>(0);
                 rho += a * (dt * dt / 2.0);
                 let mut rho_dot = core.x.fixed_rows_mut::<3>(3);

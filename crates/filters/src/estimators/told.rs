@@ -82,19 +82,20 @@ impl Manoeuvres {
     /// acceleration is constant over each.
     ///
     /// * `from`: begin of the gap, s after the start of the run.
-    pub(super) fn steps(&self, from: f64, length: f64, parts: u32) -> Vec<f64> {
-        if self.all.is_empty() {
+    /// * `cuts`: other times at which it is cut, s after its begin.
+    pub(super) fn steps(&self, from: f64, length: f64, parts: u32, cuts: impl Iterator<Item = f64>) -> Vec<f64> {
+        let told = self.all.iter().flat_map(|m| [m.from - from, m.to - from]);
+        let mut cuts = told.chain(cuts).filter(|cut| *cut > 0.0 && *cut < length).peekable();
+        if cuts.peek().is_none() {
             return vec![length / f64::from(parts); parts as usize];
         }
         let mut edges: Vec<f64> = (1..=parts)
             .map(|k| f64::from(k) * (length / f64::from(parts)))
             .collect();
-        for m in &self.all {
-            for edge in [m.from - from, m.to - from] {
-                // A step that is nearly nothing would only cost.
-                if edge > 0.0 && edge < length && edges.iter().all(|e| (e - edge).abs() > 1e-9 * length) {
-                    edges.push(edge);
-                }
+        for edge in cuts {
+            // A step that is nearly nothing would only cost.
+            if edges.iter().all(|e| (e - edge).abs() > 1e-9 * length) {
+                edges.push(edge);
             }
         }
         edges.sort_by(f64::total_cmp);

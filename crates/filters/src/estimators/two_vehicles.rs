@@ -5,6 +5,7 @@ use super::estimator::{Estimator, Gap, Reported, defect, stand_in};
 use super::sights::{self, InLvlh};
 use super::told::{Manoeuvres, Place};
 use crate::beliefs::Beliefs;
+use crate::commands::Commands;
 use crate::dynamics::{AccelerationModel, Drive, TwoVehicles, initial_covariance};
 use crate::editing::wrapped;
 use crate::error::FilterError;
@@ -289,6 +290,14 @@ impl InertialState {
     }
 }
 
+/// Changes the chaser's velocity at once.
+fn kick(x: &mut State, dv_c_n: &Vector3<f64>) {
+    let mut v_c = x.fixed_rows_mut::<3>(idx::V_C.start);
+    v_c += dv_c_n;
+    let mut v_tc = x.fixed_rows_mut::<3>(idx::V_TC.start);
+    v_tc -= dv_c_n;
+}
+
 /// Places of target and chaser, the velocities inertial.
 ///
 /// * `rotating`: set where axes N turn.
@@ -378,9 +387,23 @@ impl Estimator for InertialState {
         self.core.is_some()
     }
 
-    fn propagate(&mut self, gap: &Gap, sample: &Sample, law: &dyn Adaptation) -> Result<TargetMatrix, FilterError> {
+    fn propagate(
+        &mut self,
+        gap: &Gap,
+        sample: &Sample,
+        law: &dyn Adaptation,
+        commands: &Commands,
+    ) -> Result<TargetMatrix, FilterError> {
         let mut total = TargetMatrix::identity();
         let Some(core) = &mut self.core else { return Ok(total) };
+        let commands = Some(commands).filter(|told| !told.is_silent());
+        let (held, mean_since) = self.accelerometer.as_ref().map_or_else(
+            || (Vector3::zeros(), None),
+            |accelerometer| (accelerometer.command_held(), accelerometer.mean_since()),
+        );
+        // Commands that no reading tells of.
+        let unfelt = commands.filter(|_| self.accelerometer.is_none() || Accelerometer::leaves_to_command(sample));
+        let mut credited_n = Vector3::zeros();
         let bias = Bias {
             mean: part(&core.x, idx::B_C),
             variance: idx::B_C.map(|slot| core.p[(slot, slot)]).fold(0.0, f64::max),
@@ -396,15 +419,25 @@ impl Estimator for InertialState {
             ..Drive::default()
         };
         let mut t = gap.from_s - gap.start_s;
-        for length in self.told.steps(t, gap.length_s, gap.parts()) {
+        let cuts = unfelt.into_iter().flat_map(|told| told.edges(gap.from_s, gap.length_s));
+        for length in self.told.steps(t, gap.length_s, gap.parts(), cuts) {
             let middle = t + length / 2.0;
             self.dynamics.gravity.turn_to(middle)?;
+            let mut commanded_c_n = Vector3::zeros();
+            if let Some(told) = unfelt {
+                let begin_s = gap.start_s + t;
+                let impulse = told.impulse(begin_s, begin_s + length) / self.units.velocity();
+                kick(&mut core.x, &impulse);
+                commanded_c_n = told.at(begin_s + length / 2.0) / self.units.acceleration() - held;
+                credited_n += impulse + commanded_c_n * (length / self.units.time);
+            }
+            drive.told_c_n = commanded_c_n;
             if !self.told.is_empty() {
                 let (target, chaser) = places(&core.x, &self.units, self.rotating.as_ref());
                 let dcm_n_bc = sample.dcm_bc_n.transpose();
                 let (target, chaser) = self.told.at(middle, Some((&target, &chaser)), &dcm_n_bc);
                 drive.told_t_n = law.announced() + target / self.units.acceleration();
-                drive.told_c_n = chaser / self.units.acceleration();
+                drive.told_c_n = commanded_c_n + chaser / self.units.acceleration();
             }
             let dt = length / self.units.time;
             let f = self
@@ -415,6 +448,10 @@ impl Estimator for InertialState {
         }
         if let Some(unknown) = &driven.blur {
             blur(&mut core.p, unknown);
+        }
+        if let (Some(told), Some(accelerometer)) = (commands, &mut self.accelerometer) {
+            accelerometer.credit(&credited_n);
+            accelerometer.remember(sample, mean_since.unwrap_or(gap.start_s), told);
         }
         Ok(total)
     }

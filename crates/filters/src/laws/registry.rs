@@ -61,6 +61,23 @@ pub fn entry(filter: usize) -> Result<&'static FilterEntry, FilterError> {
     FILTERS.get(filter).ok_or_else(|| unknown(filter))
 }
 
+/// The place in [`FILTERS`] of a filter counted from 1.
+///
+/// # Errors
+/// When there is none.
+pub fn of_ordinal(ordinal: i32) -> Result<usize, FilterError> {
+    let place = usize::try_from(i64::from(ordinal) - 1);
+    let known = place.ok().filter(|place| *place < FILTERS.len());
+    known.ok_or_else(|| FilterError::UnknownFilter {
+        name: format!("number {ordinal}"),
+        known: (1..)
+            .zip(FILTERS)
+            .map(|(n, f)| format!("{n} ({})", f.name))
+            .collect::<Vec<_>>()
+            .join(", "),
+    })
+}
+
 /// Refuses a mission that states a start value which no law takes from it.
 ///
 /// # Errors

@@ -17,6 +17,8 @@ pub const SHIPPED: &str = "missions";
 pub struct Choice {
     /// Item of the `scenario` enumeration, counted from 1.
     pub scenario: i32,
+    /// The same for tools without enumerations; 0: `scenario` counts.
+    pub scenario_index: i32,
     /// Path of a mission file, or the name, with or without `.toml`, of one that comes with the project; empty: none.
     pub mission_file: String,
     /// The FMU's resources, where there are any.
@@ -27,6 +29,7 @@ impl Default for Choice {
     fn default() -> Self {
         Self {
             scenario: 1,
+            scenario_index: 0,
             mission_file: String::new(),
             resources: None,
         }
@@ -34,8 +37,8 @@ impl Default for Choice {
 }
 
 impl Choice {
-    /// The mission: that of `mission_file`; else, with the first scenario, the one that the FMU was packed with, if it was; else
-    /// the scenario's.
+    /// The mission: that of `mission_file`; else that of `scenario_index` where it is not 0; else, with the first scenario, the one
+    /// that the FMU was packed with, if it was; else the scenario's.
     ///
     /// # Errors
     /// When the file cannot be used or the scenario does not exist.
@@ -63,11 +66,16 @@ impl Choice {
             .resources
             .as_deref()
             .and_then(packed)
-            .filter(|_| self.scenario == 1)
+            .filter(|_| self.scenario == 1 && self.scenario_index == 0)
         {
             return Mission::read(&packed);
         }
-        let place = usize::try_from(i64::from(self.scenario) - 1).ok();
+        let ordinal = if self.scenario_index == 0 {
+            self.scenario
+        } else {
+            self.scenario_index
+        };
+        let place = usize::try_from(i64::from(ordinal) - 1).ok();
         let entry = place.and_then(|place| Embedded::scenarios().nth(place));
         entry
             .ok_or_else(|| {
@@ -75,7 +83,7 @@ impl Choice {
                     .zip(1..)
                     .map(|(entry, number)| format!("{number} ({})", entry.name));
                 MissionError::Scenario {
-                    ordinal: self.scenario,
+                    ordinal,
                     known: names.collect::<Vec<_>>().join(", "),
                 }
             })?
@@ -124,14 +132,16 @@ mod tests {
             text.replace("name = \"leo_venting\"", "name = \"other\""),
         )
         .unwrap();
-        let name = |scenario, file: &str, resources: Option<&Path>| {
+        let indexed = |scenario_index, scenario, file: &str, resources: Option<&Path>| {
             let choice = Choice {
                 scenario,
+                scenario_index,
                 mission_file: file.to_owned(),
                 resources: resources.map(Path::to_owned),
             };
             choice.mission().map(|m| m.name)
         };
+        let name = |scenario, file: &str, resources| indexed(0, scenario, file, resources);
         let all = Some(resources.as_path());
         assert_eq!(name(1, "", None).unwrap(), "leo_venting");
         assert_eq!(name(1, "", all).unwrap(), "packed");
@@ -142,6 +152,11 @@ mod tests {
         for file in ["leo_venting", "leo_venting.toml"] {
             assert_eq!(name(1, file, all).unwrap(), "leo_venting");
         }
+        // The number goes before the enumeration and before what was packed, and after the file.
+        assert_eq!(indexed(3, 2, "", all).unwrap(), "formation");
+        assert_eq!(indexed(1, 1, "", all).unwrap(), "leo_venting");
+        assert_eq!(indexed(3, 1, "other.toml", all).unwrap(), "other");
+        assert!(indexed(9, 1, "", None).is_err());
         let error = name(9, "", None).unwrap_err().to_string();
         assert!(error.contains('9') && error.contains("1 (leo_venting)"), "{error}");
     }

@@ -144,6 +144,13 @@ macro_rules! sensors_of_the_target {
                 }
             }
 
+            /// Whether it has a field of view.
+            pub const fn looks_ahead(self) -> bool {
+                match self {
+                    $(Self::$kind => ![$(stringify!($view),)?""][0].is_empty(),)+
+                }
+            }
+
             /// What it is called in a sentence.
             pub const fn word(self) -> &'static str {
                 match self {
@@ -221,6 +228,8 @@ macro_rules! sensors_of_the_target {
                 fn place(&mut self, key: &str) -> Option<&mut f64> {
                     match key {
                         $(stringify!($sigma) => Some(&mut self.$sigma),)+
+                        $(stringify!($view) => Some(&mut self.$view),)?
+                        "max_range_m" => Some(&mut self.max_range_m),
                         "dropout_probability" => Some(&mut self.dropout_probability),
                         "outlier_probability" => Some(&mut self.outlier_probability),
                         "outlier_scale" => Some(&mut self.outlier_scale),
@@ -250,8 +259,8 @@ macro_rules! sensors_of_the_target {
                 [$(self.$name.as_ref().map($kind::on_board)),+].into_iter().flatten()
             }
 
-            /// A number of a sensor of the target, by its key: a deviation, `dropout_probability`, `outlier_probability` or
-            /// `outlier_scale`. `None` when the sensor is not on board or has no such key.
+            /// A number of a sensor of the target, by its key: a deviation, `field_of_view_deg`, `max_range_m`,
+            /// `dropout_probability`, `outlier_probability` or `outlier_scale`. `None` when the sensor is not on board or has no such key.
             pub fn place(&mut self, sensor: Sensor, key: &str) -> Option<&mut f64> {
                 match sensor {
                     $(Sensor::$kind => self.$name.as_mut()?.place(key),)+

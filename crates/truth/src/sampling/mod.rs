@@ -9,7 +9,7 @@ mod of_target;
 
 use std::ops::Index;
 
-use astro::TargetOrbit;
+use astro::{LvlhAxes, TargetOrbit};
 use interface::Sensor;
 use interface::mission::AccelerometerOutput;
 use interface::signals::Seen;
@@ -39,6 +39,8 @@ pub struct SensorSample {
     pub accelerometer: AccelerometerSample,
     /// The target's own orbit at the epoch, in missions with a sensor that measures in its axes; that of the start time before the first sample.
     pub target_orbit: Option<TargetOrbit>,
+    /// The axes of that orbit, likewise.
+    pub target_axes: Option<LvlhAxes>,
     /// Attitude of the chaser at the epoch, maps N to body; that of the start time before the first sample.
     pub dcm_bc_n: Matrix3<f64>,
     /// What no sensor measures and only a bound is told, up to the epoch.
@@ -59,6 +61,8 @@ pub(crate) struct Scene {
     pub target: sensors::Scene,
     /// The target's orbit, where a sensor measures in its axes.
     pub target_orbit: Option<TargetOrbit>,
+    /// Its axes, likewise.
+    pub target_axes: Option<LvlhAxes>,
     /// Acceleration of the chaser beside gravity just after the epoch, N, m/s2.
     pub force_c_n: Vector3<f64>,
     /// Mean of that in chaser body axes since the accelerometer's last sample, m/s2, where it measures the mean.
@@ -141,6 +145,7 @@ impl Sensors {
             accelerometer.sample(&mut sample.accelerometer, scene);
         }
         sample.target_orbit = scene.target_orbit;
+        sample.target_axes = scene.target_axes;
         sample.dcm_bc_n = scene.dcm_bc_n;
     }
 }
@@ -154,6 +159,7 @@ impl SensorSample {
             sensors: Default::default(),
             accelerometer: AccelerometerSample::default(),
             target_orbit: scene.target_orbit,
+            target_axes: scene.target_axes,
             dcm_bc_n: scene.dcm_bc_n,
             untold: Untold::default(),
         }
@@ -197,6 +203,7 @@ mod tests {
                 lvlh: Vector6::repeat(f64::NAN),
             },
             target_orbit: None,
+            target_axes: None,
             force_c_n: Vector3::zeros(),
             mean_force_c_bc: None,
             dcm_bc_n: Matrix3::identity(),

@@ -96,7 +96,7 @@ fn approach_is_the_one_the_paper_plots() {
     let mut path = Vec::new();
     let end = run_forward(&Params::of_scenario(1), |world, t, state| {
         path.push(*state);
-        let seen = frames::lidar_from_body() * world.dcm_bc_n(t, state) * state.r_tc();
+        let seen = frames::lidar_from_body() * world.dcm_bc_n(t, state, &Push::default()) * state.r_tc();
         assert!(
             seen.x.abs() + seen.y.abs() < 1e-11 * seen.z,
             "the target is on the boresight: {seen}"
