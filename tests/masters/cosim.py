@@ -1,4 +1,4 @@
-"""Run an SSP folder of truth and filter with libcosim, DNV's co-simulation library: cosim.py FOLDER STEP_S STOP_S OUT.csv
+"""Run an SSP of truth and filter, archive or folder, with libcosim, DNV's co-simulation library: cosim.py SSP STEP_S STOP_S OUT.csv [NAV]
 
 Writes one row for each sample that the filter has used, as `tests/fmpy/couple.py` does. libcosim steps all slaves at once
 and hands values over afterwards (Jacobi).
@@ -15,12 +15,12 @@ VECTORS = ("est.r_tc_n", "est.v_tc_n", "est.a_t_n", "est.r_c_n", "est.v_c_n", "e
 REALS = ["est.time"] + [f"{name}[{i}]" for name in VECTORS for i in (1, 2, 3)]
 
 
-def main(folder, step, stop, out):
+def main(ssp, step, stop, out, element="fmu-nav"):
     step, stop = round(float(step) * 1e9), round(float(stop) * 1e9)
-    execution = CosimExecution.from_ssp_file(ssp_path=folder, step_size=step)
+    execution = CosimExecution.from_ssp_file(ssp_path=ssp, step_size=step)
     observer = CosimObserver.create_last_value()
     execution.add_observer(observer)
-    nav = execution.slave_index_from_instance_name("fmu-nav")
+    nav = execution.slave_index_from_instance_name(element)
     variables = {v.name.decode(): v.reference for v in execution.slave_variables(nav)}
     reals, count = [variables[name] for name in REALS], [variables["est.count"]]
     with open(out, "w", newline="") as file:

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The longer tier with other people's tools: libcosim couples our FMUs, a filter made with PythonFMU takes the place of
+# The longer tier with other people's tools: libcosim and ecos couple our FMUs, a filter made with PythonFMU takes the place of
 # fmu-nav, and valgrind watches real life cycles. Results and the virtual environment stay in target/masters.
 # What lacks a system package says SKIPPED and which.
 set -euo pipefail
@@ -38,6 +38,24 @@ if [ -x "$python" ]; then
         # Values arrive one step late, so the last sample is not seen.
         "$python" "$here/same.py" "$work/cosim.csv" "$work/replay.csv" 699
     done
+
+    echo "# the SSP as it is packed, in libcosim and ecos: the same bits"
+    packed=$work/fmu/relative-navigation.ssp
+    harness replay "${ours[@]}" --filters hybrid --run 0 --seed 1 --out "$work/packed.csv"
+    for step in 1 0.25; do
+        "$python" "$here/cosim.py" "$packed" "$step" 700 "$work/cosim.csv" nav >"$work/cosim.log" 2>&1 \
+            || { tail -n 20 "$work/cosim.log"; exit 1; }
+        "$python" "$here/same.py" "$work/cosim.csv" "$work/packed.csv" 699
+    done
+    if "$python" -c 'import ecospy' 2>/dev/null; then
+        for step in 1 0.25; do
+            "$python" "$here/ecos.py" "$packed" leo_venting "$step" 700 "$work/ecos.csv" >"$work/ecos.log" 2>&1 \
+                || { tail -n 20 "$work/ecos.log"; exit 1; }
+            "$python" "$here/same.py" "$work/ecos.csv" "$work/packed.csv" 699
+        done
+    else
+        skipped ecos libtbb12
+    fi
 
     echo "# PythonFMU: a stranger's filter in the study"
     # Its library takes Python from the program that loads it, so the harness must bring one.

@@ -16,6 +16,7 @@ use zip::{CompressionMethod, ZipWriter};
 use crate::HarnessError;
 use crate::digest::of_bytes;
 use crate::output::write_whole;
+use crate::structure;
 
 /// Our FMUs: crate and model name, and the identifier that library and C functions go by.
 pub const FMUS: [(&str, &str); 2] = [(TRUTH, "fmu_truth"), (NAV, "fmu_nav")];
@@ -45,7 +46,7 @@ pub fn fmu_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.fmu"))
 }
 
-/// Builds what has changed and packs both FMUs into a folder; a file whose contents would be the same stays.
+/// Builds what has changed and packs both FMUs into a folder, with the system of them; a file whose contents would be the same stays.
 ///
 /// * `mission`: a mission file that both run unless told otherwise; it makes them FMUs with identifiers of their own.
 ///
@@ -96,6 +97,11 @@ pub fn pack(workspace: &Path, folder: &Path, mission: Option<&Path>, quiet: bool
         }
         packed.push(Packed { path, written });
     }
+    let written = structure::write(folder, world.as_ref())?;
+    packed.push(Packed {
+        path: folder.join(structure::SSP),
+        written,
+    });
     Ok(packed)
 }
 

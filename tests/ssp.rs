@@ -1,0 +1,240 @@
+//! System structures end to end: the one that `pack` writes, and studies of it.
+
+#![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
+
+mod common;
+
+use common::{fmu, harness, harness_ok, results};
+use interface::mission::EMBEDDED;
+use interface::ports::{PORTS, Role, Shape};
+use ssp::{Component, DataType, Element, Package, Value, flatten};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{Cursor, Read};
+use std::path::{Path, PathBuf};
+
+fn packed() -> PathBuf {
+    fmu("fmu-nav").with_file_name("relative-navigation.ssp")
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+fn component<'a>(package: &'a Package, name: &str) -> &'a Component {
+    let elements = package.structure().system.elements.iter();
+    let mut components = elements.filter_map(|element| match element {
+        Element::Component(component) => Some(component),
+        Element::System(_) => None,
+    });
+    components.find(|component| component.name == name).unwrap()
+}
+
+/// What is connected is what the table of ports says that truth offers and a filter reads, with its types and units.
+#[test]
+fn every_sensor_of_the_interface_is_connected() {
+    let package = Package::open(&packed()).unwrap();
+    let mut wanted = BTreeMap::new();
+    for port in PORTS
+        .iter()
+        .filter(|port| matches!(port.role, Role::Sensor | Role::Untold))
+    {
+        let names: Vec<String> = match port.shape {
+            Shape::Scalar => vec![port.name.to_owned()],
+            Shape::Vector(n) => (1..=n).map(|i| format!("{}[{i}]", port.name)).collect(),
+            Shape::Matrix(rows, columns) => (1..=rows)
+                .flat_map(|i| (1..=columns).map(move |j| format!("{}[{i},{j}]", port.name)))
+                .collect(),
+        };
+        for (element, name) in names.into_iter().enumerate() {
+            wanted.insert(name, port.unit(element));
+        }
+    }
+    let flat = flatten(package.structure()).unwrap();
+    let connected: BTreeSet<&str> = flat.connections.iter().map(|c| c.to.1.as_str()).collect();
+    assert_eq!(connected, wanted.keys().map(String::as_str).collect::<BTreeSet<_>>());
+    assert!(
+        flat.connections
+            .iter()
+            .all(|c| c.from.1 == c.to.1 && c.from.0 == 0 && c.to.0 == 1)
+    );
+    for name in ["truth", "nav"] {
+        for connector in &component(&package, name).connectors {
+            let (Some(unit), Some(DataType::Real { unit: said })) = (wanted.get(&connector.name), &connector.data)
+            else {
+                continue;
+            };
+            assert_eq!(said.as_deref().unwrap_or_default(), *unit, "{name}.{}", connector.name);
+        }
+    }
+    // FMPy cannot do with an input that is not connected, nor libcosim with an enumeration.
+    let inputs = component(&package, "nav").connectors.iter().filter(|c| c.kind.takes());
+    assert_eq!(inputs.count(), connected.len());
+    assert!(component(&package, "truth").connectors.iter().all(|c| !c.kind.takes()));
+    let offered: Vec<&str> = component(&package, "nav")
+        .connectors
+        .iter()
+        .map(|c| c.name.as_str())
+        .collect();
+    for name in ["est.r_tc_n[1]", "pred.r_tc_n[3]", "status_index"] {
+        assert!(offered.contains(&name), "{name}");
+    }
+}
+
+/// The archive holds both FMUs as they are, and values for every mission that comes with the project.
+#[test]
+fn every_mission_has_its_values_and_the_fmus_are_as_they_are() {
+    let bytes = std::fs::read(packed()).unwrap();
+    let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
+    assert_eq!(archive.by_index(0).unwrap().name().unwrap(), "SystemStructure.ssd");
+    let mut contents = |name: &str| {
+        let mut bytes = Vec::new();
+        archive.by_name(name).unwrap().read_to_end(&mut bytes).unwrap();
+        bytes
+    };
+    for name in ["fmu-truth", "fmu-nav"] {
+        assert_eq!(
+            contents(&format!("resources/{name}.fmu")),
+            std::fs::read(fmu(name)).unwrap()
+        );
+    }
+    let readme = String::from_utf8(contents("documentation/README.txt")).unwrap();
+    for entry in EMBEDDED {
+        for element in ["truth", "nav"] {
+            let name = format!("resources/{}_{element}.ssv", entry.name);
+            let values = String::from_utf8(contents(&name)).unwrap();
+            let (of_scenario, by_name) = (
+                values.contains("\"scenario_index\""),
+                values.contains("\"mission_file\""),
+            );
+            assert_eq!((of_scenario, by_name), (entry.scenario, !entry.scenario), "{name}");
+            assert!(
+                !values.contains("ssv:Enumeration") && !values.contains("ssv:Boolean"),
+                "{name}"
+            );
+            assert!(readme.contains(&name), "{name}");
+        }
+    }
+    let package = Package::open(&packed()).unwrap();
+    let bound = &component(&package, "nav").bindings;
+    let of = |name: &str| {
+        bound[0]
+            .values
+            .parameters
+            .iter()
+            .find(|p| p.name == name)
+            .map(|p| p.value.clone())
+    };
+    assert_eq!((bound.len(), of("scenario_index")), (1, Some(Value::Integer(1))));
+    let experiment = package.structure().experiment.unwrap();
+    let mission = EMBEDDED[0].mission().unwrap();
+    assert_eq!(experiment.stop_time, Some(mission.time.duration_s));
+    // Read and written again it says the same.
+    assert_eq!(
+        package.structure().to_xml().into_bytes(),
+        contents("SystemStructure.ssd")
+    );
+}
+
+/// A study of the structure is the study of its filter in its mission, byte for byte.
+#[test]
+fn a_study_of_the_packed_structure_is_that_of_its_filter() {
+    let folder = tempfile::tempdir().unwrap();
+    let (told, plain) = (folder.path().join("told"), folder.path().join("plain"));
+    let ssp = packed();
+    harness_ok(&["compare", "--ssp", text(&ssp), "--runs", "2", "--out", text(&told)]);
+    harness_ok(&["compare", "--filters", "hybrid", "--runs", "2", "--out", text(&plain)]);
+    let (told, plain) = (results(&told), results(&plain));
+    for name in ["summary.csv", "runs.csv", "phases.csv"] {
+        assert!(!told[name].is_empty());
+        assert_eq!(told[name], plain[name], "{name}");
+    }
+}
+
+/// Options go before what the structure says, and another mission is two words in a folder of the same contents.
+#[test]
+fn another_mission_is_bound_by_its_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let unpacked = folder.path().join("structure");
+    let mut archive = zip::ZipArchive::new(std::fs::File::open(packed()).unwrap()).unwrap();
+    archive.extract(&unpacked).unwrap();
+    let structure = unpacked.join("SystemStructure.ssd");
+    let changed = std::fs::read_to_string(&structure)
+        .unwrap()
+        .replace("resources/leo_venting_", "resources/formation_");
+    std::fs::write(&structure, changed).unwrap();
+    let (told, plain) = (folder.path().join("told"), folder.path().join("plain"));
+    let short = ["--runs", "1", "--duration", "600", "--filters", "snc"];
+    harness_ok(&[&["compare", "--ssp", text(&unpacked), "--out", text(&told)], &short[..]].concat());
+    harness_ok(
+        &[
+            &["compare", "--scenario", "formation", "--out", text(&plain)],
+            &short[..],
+        ]
+        .concat(),
+    );
+    // The length that the structure suggests is that of the other mission, and the option goes before it.
+    assert_eq!(results(&told)["summary.csv"], results(&plain)["summary.csv"]);
+}
+
+/// What no study can represent is an error that names the element.
+#[test]
+fn what_a_study_cannot_represent_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut archive = zip::ZipArchive::new(std::fs::File::open(packed()).unwrap()).unwrap();
+    archive.extract(folder.path()).unwrap();
+    let structure = folder.path().join("SystemStructure.ssd");
+    let whole = std::fs::read_to_string(&structure).unwrap();
+    let line = |part: &str| {
+        let found = whole.lines().find(|line| line.contains(part)).unwrap();
+        found.trim().to_owned()
+    };
+    let range = line("startConnector=\"lidar.range\"");
+    let back = "<ssd:Connection startElement=\"nav\" startConnector=\"est.r_tc_n[1]\" endElement=\"truth\" endConnector=\"a_cmd_c_n[1]\"/>";
+    let input = "<ssd:Connector name=\"a_cmd_c_n[1]\" kind=\"input\"><ssc:Real unit=\"m/s2\"/></ssd:Connector>";
+    let first = line("<ssd:Connector name=\"sample_time\" kind=\"output\">");
+    let scaled = range.replace("/>", "><ssc:LinearTransformation factor=\"1000\"/></ssd:Connection>");
+    let late = whole.replace("startTime=\"0.0\"", "startTime=\"5.0\"");
+    let cases = [
+        (whole.replace(&range, ""), "input 'nav.lidar.range': nothing feeds it"),
+        (
+            whole.replace(&range, &scaled),
+            "connection from truth.lidar.range to nav.lidar.range: factor 1000",
+        ),
+        (
+            whole
+                .replace(&range, &format!("{range}{back}"))
+                .replacen(&first, &format!("{input}{first}"), 1),
+            "a filter acts on the world through a driver alone",
+        ),
+        (
+            whole.replace("fmu-truth.fmu", "fmu-nav.fmu"),
+            "is of kind output, and the variable is of causality input",
+        ),
+        (
+            whole.replace("source=\"resources/fmu-nav.fmu\"", "source=\"resources/none.fmu\""),
+            "component 'nav' names 'resources/none.fmu'",
+        ),
+        (
+            whole.replace("name=\"lidar.range\"", "name=\"lidar.rang\""),
+            "lidar.range",
+        ),
+        (late, "startTime is 5"),
+    ];
+    for (changed, says) in cases {
+        assert_ne!(changed, whole, "{says}");
+        std::fs::write(&structure, changed).unwrap();
+        let out = folder.path().join("out");
+        let refused = harness(&[
+            "compare",
+            "--ssp",
+            text(folder.path()),
+            "--runs",
+            "1",
+            "--out",
+            text(&out),
+        ]);
+        let told = String::from_utf8_lossy(&refused.stderr);
+        assert_eq!(refused.status.code(), Some(2), "{says}: {told}");
+        assert!(told.contains(says), "{says}: {told}");
+    }
+}
