@@ -143,8 +143,8 @@ pub struct StudyArgs {
     /// Add a foreign filter FMU under a label; repeatable
     #[arg(long = "nav", value_name = "LABEL=PATH")]
     pub foreign: Vec<ForeignFilter>,
-    /// Add a driver FMU under a label: guidance or life support that pushes the vehicles through a_cmd_c_n and a_dist_t_n. One that
-    /// reads est.* gives every filter a world of its own, seeded alike; repeatable
+    /// Add a driver FMU under a label: guidance or life support that pushes the vehicles through inputs of the truth such as a_cmd_c_n and
+    /// f_dist_t_bt. One that reads est.* or pred.* gives every filter a world of its own, seeded alike; repeatable
     #[arg(long = "drive", value_name = "LABEL=PATH")]
     pub drivers: Vec<ForeignFilter>,
     /// Let foreign filters read truth.*, as a bound rather than a filter

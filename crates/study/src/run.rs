@@ -14,6 +14,7 @@ use crate::samples::{Estimate, SAME_TIME, TruthSample};
 use crate::spec::Spec;
 use crate::stop::stop_asked;
 use interface::Status;
+use interface::ports::{self, Role};
 use serde::{Deserialize, Serialize};
 
 /// Why a filter has no result in a run.
@@ -106,8 +107,11 @@ fn couple(spec: &Spec, run: u32) -> Result<Coupled, StudyError> {
     for driver in &spec.drivers {
         let id = seat(&mut system, driver, spec.seed, run)?;
         drive(&mut system, id, truth, driver)?;
-        for filter in seated.iter().flatten().filter(|_| spec.closed_loop) {
-            system.connect_by_name_from(*filter, id)?;
+        for filter in seated.iter().flatten() {
+            announce(&mut system, id, *filter)?;
+            if spec.closed_loop {
+                system.connect_by_name_from(*filter, id)?;
+            }
         }
         drivers.push(id);
     }
@@ -166,6 +170,23 @@ fn drive(system: &mut System, id: SlaveId, truth: SlaveId, driver: &Participant)
     }
     for name in driven {
         system.connect(id, name, truth, name)?;
+    }
+    Ok(())
+}
+
+/// Tells a filter what a driver commands the chaser to do, as far as it asks.
+fn announce(system: &mut System, driver: SlaveId, filter: SlaveId) -> Result<(), StudyError> {
+    let commands = |name: &str| ports::of(Role::Announced).any(|port| name.split('[').next() == Some(port.name));
+    let open = system.unconnected_inputs().into_iter();
+    let asked: Vec<String> = open
+        .filter(|open| open.slave == filter && commands(&open.input))
+        .map(|open| open.input)
+        .collect();
+    for name in asked {
+        let offered = system.port(driver, &name);
+        if offered.is_some_and(|port| port.causality == Causality::Output) {
+            system.connect(driver, &name, filter, &name)?;
+        }
     }
     Ok(())
 }
