@@ -159,6 +159,21 @@ fn the_twins_keep_states_and_refuse_what_is_wrong() {
     }
 }
 
+/// A mission inside makes a twin another FMU, too: its token fits, and it runs that mission for as long as it lasts.
+#[test]
+fn fmpy_runs_a_twin_packed_with_a_mission() {
+    let folder = tempfile::tempdir().unwrap();
+    let mission = root().join("missions/fast_approach.toml");
+    trade_harness::pack::pack(root(), folder.path(), Some(&mission), true).unwrap();
+    let alone = |test: &str, fmu: &Path, output: &str| script(test, "alone.py", &[text(fmu), output]);
+    let at = trade_harness::pack::fmi3::folder(folder.path()).join("fmu-truth.fmu");
+    if let Some(three) = alone("packed twin", &at, "truth.r_tc_n") {
+        let two = alone("packed", &folder.path().join("fmu-truth.fmu"), "truth.r_tc_n[1]").unwrap();
+        let first = two.split_whitespace().nth(1).unwrap();
+        assert!(three.starts_with(&format!("truth.r_tc_n [{first}, ")), "{three} {two}");
+    }
+}
+
 /// Vectors of an estimate: the FMU's name, and name and unit in the harness's column.
 type Names = &'static [(&'static str, &'static str, &'static str)];
 
