@@ -264,7 +264,10 @@ fn arrows_between_crates_go_one_way() {
         ("html-report", &["stats"]),
         ("fmi-model", &[]),
         ("fmi2-abi", &[]),
-        ("fmi2-export", &["fmi-model", "fmi2-abi"]),
+        ("fmi3-abi", &[]),
+        ("fmi-export", &["fmi-model"]),
+        ("fmi2-export", &["fmi-model", "fmi-export", "fmi2-abi"]),
+        ("fmi3-export", &["fmi-model", "fmi-export", "fmi3-abi"]),
         ("fmi2-import", &["fmi2-abi"]),
         ("cosim", &["fmi2-import"]),
         (
@@ -284,8 +287,14 @@ fn arrows_between_crates_go_one_way() {
                 "html-report",
             ],
         ),
-        ("fmu-truth", &["interface", "astro", "truth", "fmi2-export"]),
-        ("fmu-nav", &["interface", "astro", "filters", "fmi2-export"]),
+        (
+            "fmu-truth",
+            &["interface", "astro", "truth", "fmi2-export", "fmi3-export"],
+        ),
+        (
+            "fmu-nav",
+            &["interface", "astro", "filters", "fmi2-export", "fmi3-export"],
+        ),
     ];
     let all = packages();
     let names: BTreeSet<&str> = all

@@ -19,13 +19,22 @@ pub fn root() -> &'static Path {
 
 /// Path of `fmu-truth` or `fmu-nav`, built and packed once for each test binary.
 pub fn fmu(name: &str) -> PathBuf {
+    pack::fmu_path(packed(), name)
+}
+
+/// Path of its FMI 3.0 twin.
+pub fn twin(name: &str) -> PathBuf {
+    pack::fmu_path(&pack::fmi3::folder(packed()), name)
+}
+
+/// Folder of the FMUs.
+fn packed() -> &'static Path {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
-    let folder = FOLDER.get_or_init(|| {
+    FOLDER.get_or_init(|| {
         let folder = pack::default_folder(root());
         pack::pack(root(), &folder, None, true).unwrap();
         folder
-    });
-    pack::fmu_path(folder, name)
+    })
 }
 
 /// A call of the harness's program, built once for each test binary, on FMUs that are packed already.

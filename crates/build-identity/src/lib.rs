@@ -24,7 +24,7 @@ pub struct Inputs {
 
 impl Inputs {
     /// Inputs of the FMU crate in folder `name` of a workspace: itself, the crates of the workspace that it depends on, lock
-    /// file, workspace manifest, missions and committed model description.
+    /// file, workspace manifest, missions and committed model descriptions.
     ///
     /// # Errors
     /// A manifest that cannot be read.
@@ -38,11 +38,16 @@ impl Inputs {
             open.extend(ours.filter(|d| workspace.join(d).is_dir() && !crates.contains(d)));
             crates.insert(folder);
         }
-        let description = Path::new("modelDescription").join(name).join("modelDescription.xml");
+        let descriptions = Path::new("modelDescription").join(name);
         Ok(Self {
             workspace: workspace.to_owned(),
             crates,
-            others: vec!["Cargo.lock".into(), "Cargo.toml".into(), "missions".into(), description],
+            others: vec![
+                "Cargo.lock".into(),
+                "Cargo.toml".into(),
+                "missions".into(),
+                descriptions,
+            ],
         })
     }
 

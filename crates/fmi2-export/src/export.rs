@@ -16,7 +16,7 @@ macro_rules! export_fmu {
     ($model:ty) => {
         type Fmi2ExportedModel = $model;
 
-        impl $crate::Exported for $model {
+        impl $crate::Exported<$crate::Fmi2> for $model {
             fn guid_cell() -> &'static $crate::GuidCell {
                 static CELL: $crate::GuidCell = $crate::GuidCell::new();
                 &CELL

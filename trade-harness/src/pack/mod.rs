@@ -1,4 +1,6 @@
-//! Builds our two FMU crates and puts each into a `.fmu` file.
+//! Builds our two FMU crates and puts each into a `.fmu` file of FMI 2.0 and one of FMI 3.0.
+
+pub mod fmi3;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -45,7 +47,8 @@ pub fn fmu_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.fmu"))
 }
 
-/// Builds what has changed and packs both FMUs into a folder; a file whose contents would be the same stays.
+/// Builds what has changed and packs both FMUs into a folder, their FMI 3.0 twins into [`fmi3::folder`] of it; a file whose contents
+/// would be the same stays.
 ///
 /// * `mission`: a mission file that both run unless told otherwise; it makes them FMUs with identifiers of their own.
 ///
@@ -68,14 +71,11 @@ pub fn pack(workspace: &Path, folder: &Path, mission: Option<&Path>, quiet: bool
             .join("modelDescription")
             .join(name)
             .join("modelDescription.xml");
+        let inside = world.as_ref().zip(resources.get(&packed_mission()));
         let mut files = BTreeMap::from([
             (
                 "modelDescription.xml".to_owned(),
-                described(
-                    read(&description)?,
-                    guid,
-                    world.as_ref().zip(resources.get(&packed_mission())),
-                ),
+                described(read(&description)?, "guid", guid, inside),
             ),
             (
                 format!("binaries/{PLATFORM}/{identifier}.{LIBRARY_SUFFIX}"),
@@ -89,14 +89,22 @@ pub fn pack(workspace: &Path, folder: &Path, mission: Option<&Path>, quiet: bool
             documentation(name, &path, &files)?,
         );
         files.extend(licences(workspace)?);
-        let archive = archive(&path, &files)?;
-        let written = fs::read(&path).ok().as_ref() != Some(&archive);
-        if written {
-            write_whole(&path, &archive)?;
-        }
-        packed.push(Packed { path, written });
+        let twin = read(&fmi3::description(workspace, name))?;
+        let twin = fmi3::files(&files, described(twin, fmi3::IDENTIFIER, guid, inside));
+        packed.push(write(path, &files)?);
+        packed.push(write(fmu_path(&fmi3::folder(folder), name), &twin)?);
     }
     Ok(packed)
+}
+
+/// Puts files into an archive, unless it is there as it would be.
+fn write(path: PathBuf, files: &Files) -> Result<Packed, HarnessError> {
+    let archive = archive(&path, files)?;
+    let written = fs::read(&path).ok().as_ref() != Some(&archive);
+    if written {
+        write_whole(&path, &archive)?;
+    }
+    Ok(Packed { path, written })
 }
 
 /// Contents by name in the archive.
@@ -138,7 +146,9 @@ fn resources(mission: Option<&Path>) -> Result<(Option<World>, Files), HarnessEr
 /// A model description with the identifier that follows from its text and the one that the build gave its library, so that a library
 /// refuses a description of other variables than its own, and with a mission inside, the identifier, the length of a run and the step
 /// that belong to it.
-fn described(xml: Vec<u8>, guid: &str, mission: Option<(&World, &Vec<u8>)>) -> Vec<u8> {
+///
+/// * `identifier`: the attribute it stands in.
+fn described(xml: Vec<u8>, identifier: &str, guid: &str, mission: Option<(&World, &Vec<u8>)>) -> Vec<u8> {
     let own = guid_with(&format!("{{{guid}}}"), &xml);
     let text = String::from_utf8_lossy(&xml).into_owned();
     let with = |text: String, name: &str, value: String| {
@@ -146,9 +156,9 @@ fn described(xml: Vec<u8>, guid: &str, mission: Option<(&World, &Vec<u8>)>) -> V
         text.replacen(&old, &format!("{name}=\"{value}\""), 1)
     };
     let Some((world, mission)) = mission else {
-        return with(text, "guid", own).into_bytes();
+        return with(text, identifier, own).into_bytes();
     };
-    let text = with(text, "guid", guid_with(&own, mission));
+    let text = with(text, identifier, guid_with(&own, mission));
     let text = with(text, "stopTime", world.duration_s.to_string());
     with(text, "stepSize", world.sample_period_s.to_string()).into_bytes()
 }
@@ -422,7 +432,7 @@ mod tests {
         let other = one.replace('7', "8");
         let guid = |text: &str, build: &str| {
             let xml = format!("<m guid=\"{{made-by-the-build}}\"><v name=\"{text}\"/></m>");
-            let packed = String::from_utf8(described(xml.clone().into_bytes(), build, None)).unwrap();
+            let packed = String::from_utf8(described(xml.clone().into_bytes(), "guid", build, None)).unwrap();
             let guid = attribute(&packed, "guid").to_owned();
             assert_eq!(packed, xml.replace("{made-by-the-build}", &guid));
             guid

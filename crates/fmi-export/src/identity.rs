@@ -6,6 +6,7 @@ use fmi_model::{DefinitionError, Model, Seal};
 use uuid::Uuid;
 
 use crate::description::guid;
+use crate::version::Version;
 
 /// Room for the GUID of one model.
 #[derive(Debug, Default)]
@@ -18,27 +19,28 @@ impl GuidCell {
     }
 }
 
-/// A model with a place for its GUID, which generic functions cannot have. [`export_fmu!`](crate::export_fmu) implements it.
-pub trait Exported: Model {
-    /// The place; one for each type.
+/// A model with a place for its GUID in a version of the standard, which generic functions cannot have. The export macro of that
+/// version implements it.
+pub trait Exported<V: Version>: Model {
+    /// The place; one for each type and version.
     fn guid_cell() -> &'static GuidCell;
 }
 
 /// The GUID of `M`, rendered and hashed at the first call only.
-pub(crate) fn own_guid<M: Exported>() -> Result<Uuid, DefinitionError> {
+pub(crate) fn own_guid<V: Version, M: Exported<V>>() -> Result<Uuid, DefinitionError> {
     let cell = &M::guid_cell().0;
     if let Some(guid) = cell.get() {
         return Ok(*guid);
     }
-    let guid = guid::<M>()?;
+    let guid = guid::<V, M>()?;
     Ok(*cell.get_or_init(|| guid))
 }
 
 /// What marks the serialized states of `M`.
-pub(crate) fn seal<M: Exported>() -> Result<Seal, DefinitionError> {
+pub(crate) fn seal<V: Version, M: Exported<V>>() -> Result<Seal, DefinitionError> {
     Ok(Seal {
-        magic: *b"FMU2CSst",
-        tool: env!("CARGO_PKG_NAME"),
-        guid: own_guid::<M>()?,
+        magic: [b'F', b'M', b'U', V::DIGIT, b'C', b'S', b's', b't'],
+        tool: V::TOOL,
+        guid: own_guid::<V, M>()?,
     })
 }

@@ -1,4 +1,5 @@
 //! What the opaque pointers of the standard point to.
+#![allow(unsafe_code, reason = "opaque pointers come in, references go on")]
 
 use std::cell::UnsafeCell;
 use std::ffi::c_void;
@@ -6,13 +7,13 @@ use std::ops::{Deref, DerefMut};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use fmi_model::Snapshot;
-use fmi2_abi::Fmi2Status;
 use uuid::Uuid;
 
 use crate::identity::{Exported, own_guid};
 use crate::instance::Instance;
-use crate::log::Sink;
 use crate::order::Function;
+use crate::status::Status;
+use crate::version::{Sink, Version};
 
 /// First bytes behind every handle, by which misuse is recognised. All FMUs made with this crate share the layout.
 #[repr(C)]
@@ -22,9 +23,18 @@ struct Head {
     guid: [u8; 16],
 }
 
-const INSTANCE: u64 = u64::from_le_bytes(*b"FMU2inst");
-const STATE: u64 = u64::from_le_bytes(*b"FMU2stat");
-const FREED: u64 = u64::from_le_bytes(*b"FMU2free");
+/// What a head says before an instance.
+const fn instance_of<V: Version>() -> u64 {
+    u64::from_le_bytes([b'F', b'M', b'U', V::DIGIT, b'i', b'n', b's', b't'])
+}
+
+/// What a head says before a saved state.
+const fn state_of<V: Version>() -> u64 {
+    u64::from_le_bytes([b'F', b'M', b'U', V::DIGIT, b's', b't', b'a', b't'])
+}
+
+/// What a head says before what was freed.
+const FREED: u64 = u64::from_le_bytes(*b"FMU free");
 
 impl Head {
     fn new(magic: u64, guid: Uuid) -> Self {
@@ -38,32 +48,33 @@ impl Head {
     ///
     /// # Safety
     /// `pointer` is null or points to a head.
-    unsafe fn recognise<M: Exported>(pointer: *const c_void, magic: u64) -> bool {
+    unsafe fn recognise<V: Version, M: Exported<V>>(pointer: *const c_void, magic: u64) -> bool {
         let pointer = pointer.cast::<Self>();
         if pointer.is_null() || !pointer.is_aligned() {
             return false;
         }
         // SAFETY: aligned, not null, and the caller vouches for what it points to.
         let head = unsafe { &*pointer };
-        head.magic.load(Ordering::Acquire) == magic && own_guid::<M>().is_ok_and(|guid| head.guid == guid.into_bytes())
+        head.magic.load(Ordering::Acquire) == magic
+            && own_guid::<V, M>().is_ok_and(|guid| head.guid == guid.into_bytes())
     }
 }
 
-/// Behind `fmi2Component`.
+/// Behind the pointer that the host has for an instance.
 #[repr(C)]
-pub(super) struct Handle<M> {
+pub(crate) struct Handle<V: Version, M> {
     head: Head,
     /// A call is under way.
     busy: AtomicBool,
     /// Can be spoken to even then.
-    pub(super) sink: Sink,
-    instance: UnsafeCell<Instance<M>>,
+    pub(crate) sink: V::Sink,
+    instance: UnsafeCell<Instance<V, M>>,
 }
 
-impl<M: Exported> Handle<M> {
-    pub(super) fn new(guid: Uuid, sink: Sink, instance: Instance<M>) -> Self {
+impl<V: Version, M: Exported<V>> Handle<V, M> {
+    pub(crate) fn new(guid: Uuid, sink: V::Sink, instance: Instance<V, M>) -> Self {
         Self {
-            head: Head::new(INSTANCE, guid),
+            head: Head::new(instance_of::<V>(), guid),
             busy: AtomicBool::new(false),
             sink,
             instance: UnsafeCell::new(instance),
@@ -74,9 +85,9 @@ impl<M: Exported> Handle<M> {
     ///
     /// # Safety
     /// `component` is null or points to a handle that lives through `'a`.
-    pub(super) unsafe fn recognise<'a>(component: *mut c_void) -> Option<&'a Self> {
+    pub(crate) unsafe fn recognise<'a>(component: *mut c_void) -> Option<&'a Self> {
         // SAFETY: a handle begins with its head.
-        let recognised = unsafe { Head::recognise::<M>(component, INSTANCE) };
+        let recognised = unsafe { Head::recognise::<V, M>(component, instance_of::<V>()) };
         // SAFETY: the head says that a handle of this very FMU follows. Only shared references to it are ever made; the
         // instance inside is reached through its cell.
         recognised.then(|| unsafe { &*component.cast::<Self>() })
@@ -84,63 +95,63 @@ impl<M: Exported> Handle<M> {
 
     /// Exclusive use of the instance; `None`, with a message, if a call on it is under way: from another thread, or around this
     /// one, which then comes from inside a callback.
-    pub(super) fn claim(&self, function: &Function) -> Option<Claim<'_, M>> {
+    pub(crate) fn claim(&self, function: &Function) -> Option<Claim<'_, V, M>> {
         if self.busy.swap(true, Ordering::Acquire) {
             let message = format!(
                 "{}: another call on this instance is under way; wait for it, and call nothing from the logger",
                 function.name
             );
-            self.sink.explain(Fmi2Status::Error, &message);
+            self.sink.explain(Status::Error, &message);
             return None;
         }
         Some(Claim { handle: self })
     }
 
     /// Marks the handle as freed, so that a later use may be recognised.
-    pub(super) fn retire(&self) {
+    pub(crate) fn retire(&self) {
         self.head.magic.store(FREED, Ordering::Release);
     }
 }
 
 /// Exclusive use of an instance, until dropped.
-pub(super) struct Claim<'a, M> {
-    handle: &'a Handle<M>,
+pub(crate) struct Claim<'a, V: Version, M> {
+    handle: &'a Handle<V, M>,
 }
 
-impl<M> Deref for Claim<'_, M> {
-    type Target = Instance<M>;
+impl<V: Version, M> Deref for Claim<'_, V, M> {
+    type Target = Instance<V, M>;
 
-    fn deref(&self) -> &Instance<M> {
+    fn deref(&self) -> &Instance<V, M> {
         // SAFETY: `busy` was taken for this claim, so no other reference to the instance exists.
         unsafe { &*self.handle.instance.get() }
     }
 }
 
-impl<M> DerefMut for Claim<'_, M> {
-    fn deref_mut(&mut self) -> &mut Instance<M> {
+impl<V: Version, M> DerefMut for Claim<'_, V, M> {
+    fn deref_mut(&mut self) -> &mut Instance<V, M> {
         // SAFETY: as in `deref`.
         unsafe { &mut *self.handle.instance.get() }
     }
 }
 
-impl<M> Drop for Claim<'_, M> {
+impl<V: Version, M> Drop for Claim<'_, V, M> {
     fn drop(&mut self) {
         self.handle.busy.store(false, Ordering::Release);
     }
 }
 
-/// Behind `fmi2FMUstate`.
+/// Behind the pointer that the host has for a saved state.
 #[repr(C)]
-pub(super) struct SavedState<M> {
+pub(crate) struct SavedState<M> {
     head: Head,
-    pub(super) snapshot: Snapshot<M>,
+    pub(crate) snapshot: Snapshot<M>,
 }
 
-impl<M: Exported> SavedState<M> {
+impl<M> SavedState<M> {
     /// A new handle, owned by the host until it frees it.
-    pub(super) fn into_raw(guid: Uuid, snapshot: Snapshot<M>) -> *mut c_void {
+    pub(crate) fn into_raw<V: Version>(guid: Uuid, snapshot: Snapshot<M>) -> *mut c_void {
         let state = Self {
-            head: Head::new(STATE, guid),
+            head: Head::new(state_of::<V>(), guid),
             snapshot,
         };
         Box::into_raw(Box::new(state)).cast()
@@ -150,9 +161,12 @@ impl<M: Exported> SavedState<M> {
     ///
     /// # Safety
     /// `state` is null or points to a saved state that lives unchanged through `'a`.
-    pub(super) unsafe fn recognise<'a>(state: *mut c_void) -> Option<&'a Self> {
+    pub(crate) unsafe fn recognise<'a, V: Version>(state: *mut c_void) -> Option<&'a Self>
+    where
+        M: Exported<V>,
+    {
         // SAFETY: a saved state begins with its head.
-        let recognised = unsafe { Head::recognise::<M>(state, STATE) };
+        let recognised = unsafe { Head::recognise::<V, M>(state, state_of::<V>()) };
         // SAFETY: the head says that a state of this very FMU follows, and the caller vouches for its life.
         recognised.then(|| unsafe { &*state.cast::<Self>() })
     }
@@ -161,7 +175,7 @@ impl<M: Exported> SavedState<M> {
     ///
     /// # Safety
     /// `state` came from [`into_raw`](Self::into_raw), was recognised as this FMU's, and is used by no one else.
-    pub(super) unsafe fn replace(state: *mut c_void, snapshot: Snapshot<M>) {
+    pub(crate) unsafe fn replace(state: *mut c_void, snapshot: Snapshot<M>) {
         // SAFETY: the caller vouches for where it came from and for its sole use.
         unsafe { &mut *state.cast::<Self>() }.snapshot = snapshot;
     }
@@ -170,7 +184,7 @@ impl<M: Exported> SavedState<M> {
     ///
     /// # Safety
     /// `state` came from [`into_raw`](Self::into_raw), was recognised as this FMU's, and is not used afterwards.
-    pub(super) unsafe fn free(state: *mut c_void) {
+    pub(crate) unsafe fn free(state: *mut c_void) {
         // SAFETY: the caller vouches for where it came from and that it is used no more.
         let state = unsafe { Box::from_raw(state.cast::<Self>()) };
         state.head.magic.store(FREED, Ordering::Release);

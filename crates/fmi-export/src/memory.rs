@@ -1,4 +1,5 @@
 //! Pointers of the host become references and slices, checked as far as pointers can be checked.
+#![allow(unsafe_code, reason = "raw pointers come in, slices and references go on")]
 
 use std::ffi::{CStr, c_char};
 use std::mem::MaybeUninit;
@@ -8,13 +9,12 @@ use crate::error::CallError;
 
 /// An array that the host gives. A null pointer is fine for no elements.
 ///
+/// # Errors
+/// A null or misaligned pointer, or a length beyond memory.
+///
 /// # Safety
 /// Unless null or misaligned, `pointer` points to `length` values that nobody writes to during `'a`.
-pub(super) unsafe fn array<'a, T>(
-    argument: &'static str,
-    pointer: *const T,
-    length: usize,
-) -> Result<&'a [T], CallError> {
+pub unsafe fn array<'a, T>(argument: &'static str, pointer: *const T, length: usize) -> Result<&'a [T], CallError> {
     if length == 0 {
         return Ok(&[]);
     }
@@ -25,9 +25,12 @@ pub(super) unsafe fn array<'a, T>(
 
 /// An array that the host wants filled. A null pointer is fine for no elements.
 ///
+/// # Errors
+/// As for [`array`].
+///
 /// # Safety
 /// Unless null or misaligned, `pointer` points to room for `length` values that nobody else uses during `'a`.
-pub(super) unsafe fn room<'a, T>(
+pub unsafe fn room<'a, T>(
     argument: &'static str,
     pointer: *mut T,
     length: usize,
@@ -42,12 +45,12 @@ pub(super) unsafe fn room<'a, T>(
 
 /// Room for one value.
 ///
+/// # Errors
+/// A null or misaligned pointer.
+///
 /// # Safety
 /// As for [`room`], with a length of 1.
-pub(super) unsafe fn place<'a, T>(
-    argument: &'static str,
-    pointer: *mut T,
-) -> Result<&'a mut MaybeUninit<T>, CallError> {
+pub unsafe fn place<'a, T>(argument: &'static str, pointer: *mut T) -> Result<&'a mut MaybeUninit<T>, CallError> {
     check::<T>(argument, pointer, 1)?;
     // SAFETY: as in `room`.
     Ok(unsafe { &mut *pointer.cast::<MaybeUninit<T>>() })
@@ -55,9 +58,12 @@ pub(super) unsafe fn place<'a, T>(
 
 /// A text that the host gives.
 ///
+/// # Errors
+/// A null pointer, or a text that is not UTF-8.
+///
 /// # Safety
 /// Unless null, `pointer` points to a NUL-terminated text that nobody writes to during `'a`.
-pub(super) unsafe fn text<'a>(argument: &'static str, pointer: *const c_char) -> Result<&'a str, CallError> {
+pub unsafe fn text<'a>(argument: &'static str, pointer: *const c_char) -> Result<&'a str, CallError> {
     check::<c_char>(argument, pointer, 1)?;
     // SAFETY: not null, and the caller vouches for the terminating NUL.
     let text = unsafe { CStr::from_ptr(pointer) };
