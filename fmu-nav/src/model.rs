@@ -21,6 +21,8 @@ impl Model for NavModel {
             model_identifier: "fmu_nav",
             description: "Relative navigation filters of a chaser that does not know everything that acts on it and its target",
             version: env!("CARGO_PKG_VERSION"),
+            author: "the authors of relative-navigation-trades",
+            copyright: "Copyright (c) 2026 the authors of relative-navigation-trades",
             license: "MIT",
             guid: Uuid::parse_str(env!("FMU_GUID")).ok(),
             default_stop: Embedded::scenarios()

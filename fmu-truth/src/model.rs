@@ -17,6 +17,8 @@ impl Model for TruthModel {
             model_identifier: "fmu_truth",
             description: "Simulated worlds of a chaser and its target, with the chaser's sensors",
             version: env!("CARGO_PKG_VERSION"),
+            author: "the authors of relative-navigation-trades",
+            copyright: "Copyright (c) 2026 the authors of relative-navigation-trades",
             license: "MIT",
             guid: Uuid::parse_str(env!("FMU_GUID")).ok(),
             default_stop: Embedded::scenarios()

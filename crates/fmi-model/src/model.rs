@@ -69,7 +69,7 @@ pub struct Experiment {
 }
 
 /// Facts about an FMU that stand in the head of its description. An empty text is left out there.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct ModelInfo {
     /// Name for people, e.g. `fmu-nav`; also the name of the `.fmu` file.
     pub model_name: &'static str,
@@ -92,8 +92,30 @@ pub struct ModelInfo {
     pub default_stop: f64,
     /// Default communication step, s.
     pub default_step: f64,
+    /// Relative tolerance that is asked for by default; a model of fixed steps does not look at it.
+    pub default_tolerance: f64,
     /// What particular tools want to know.
     pub vendor_annotations: Vec<VendorAnnotation>,
+}
+
+impl Default for ModelInfo {
+    /// Nothing said, but for a tolerance of 1e-6.
+    fn default() -> Self {
+        Self {
+            model_name: "",
+            model_identifier: "",
+            description: "",
+            version: "",
+            guid: None,
+            author: "",
+            copyright: "",
+            license: "",
+            default_stop: 0.0,
+            default_step: 0.0,
+            default_tolerance: 1e-6,
+            vendor_annotations: Vec::new(),
+        }
+    }
 }
 
 impl ModelInfo {

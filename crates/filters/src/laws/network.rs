@@ -55,7 +55,11 @@ const TUNABLES: [Tunable; 9] = [
         about: "what is learnt from where velocity is measured: the innovation, or the residual after the update",
         kind: Kind::Choice {
             type_name: "LearningError",
-            items: &["innovation", "residual"],
+            about: "error of velocity from which a network learns",
+            items: &[
+                ("innovation", "measured minus predicted, before the update"),
+                ("residual", "measured minus estimated, after it"),
+            ],
         },
     },
     Tunable {
