@@ -70,7 +70,7 @@ fn instantiate_says_why_not() {
     let token = Some(c"{abc}");
     let wrong = Wish { token, ..good }.refusal();
     assert!(
-        wrong.contains("instantiationToken given is '{abc}'") && wrong.contains(&own_token()),
+        wrong.contains("instantiation token given is '{abc}'") && wrong.contains(&own_token()),
         "{wrong}"
     );
     for (wish, part) in [
