@@ -89,7 +89,7 @@ fn handle<V: Version, M: Exported<V>>(
         .unwrap_or(own);
     if given != own {
         return Err(CallError::WrongIdentifier {
-            kind: V::IDENTIFIER,
+            kind: V::IDENTIFIER_NAME,
             given: given.to_owned(),
             own,
         });

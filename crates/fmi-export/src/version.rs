@@ -35,6 +35,8 @@ pub trait Version: Sized + 'static {
     const TOOL: &'static str;
     /// The attribute that ties a library to its description.
     const IDENTIFIER: &'static str;
+    /// What messages call it.
+    const IDENTIFIER_NAME: &'static str;
     /// The argument by which functions take a saved state.
     const STATE: &'static str;
 

@@ -266,7 +266,24 @@ fn model_structure<M>(table: &Table<M>) -> Element {
 
 #[cfg(test)]
 mod tests {
+    use fmi_model::TableBuilder;
+
     use super::*;
+
+    #[test]
+    fn a_row_without_elements_is_no_variable() {
+        let mut t = TableBuilder::<f64>::new();
+        t.real("none").output().vector(0, |_, _| 0.0);
+        t.real("x").output().get(|m| *m);
+        let table = t.build();
+        let variables = model_variables(&table).to_document();
+        assert!(!variables.contains("none"), "{variables}");
+        for (name, reference) in [("x", 1), (TIME, 2)] {
+            let begin = format!("<Float64 name=\"{name}\" valueReference=\"{reference}\"");
+            assert!(variables.contains(&begin), "{variables}");
+        }
+        assert!(!model_structure(&table).to_document().contains("valueReference=\"0\""));
+    }
 
     #[test]
     fn elements_that_agree_are_named_as_blocks() {

@@ -31,7 +31,10 @@ fn instantiate_says_why_not() {
     let own = CString::new(own_guid()).unwrap();
     let (name, own) = (Some(c"x"), Some(own.as_c_str()));
     let wrong = refusal(name, 1, Some(c"{abc}"));
-    assert!(wrong.contains("{abc}") && wrong.contains(&own_guid()), "{wrong}");
+    assert!(
+        wrong.contains("the GUID given is '{abc}'") && wrong.contains(&own_guid()),
+        "{wrong}"
+    );
     for (reason, part) in [
         (refusal(name, 0, own), "co-simulation only"),
         (refusal(name, 7, own), "unknown fmi2Type 7"),
