@@ -58,11 +58,11 @@ pub fn command(arguments: &[&str]) -> Command {
     command.args(arguments).current_dir(root());
     let first = arguments.first().copied();
     // What answers at once has no progress.
-    if !matches!(first, Some("list" | "inspect")) {
+    if !matches!(first, Some("list" | "inspect" | "check")) {
         command.arg("--quiet");
     }
-    // A merge and a rerun take the FMUs that their study was made with, a report, a list and an inspection none.
-    if !matches!(first, Some("merge" | "report" | "list" | "rerun" | "inspect")) {
+    // A merge and a rerun take the FMUs that their study was made with, a report, a list, an inspection and a check none.
+    if !matches!(first, Some("merge" | "report" | "list" | "rerun" | "inspect" | "check")) {
         command.arg("--no-build");
     }
     command

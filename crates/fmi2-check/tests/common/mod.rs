@@ -121,3 +121,18 @@ pub fn lines(findings: &Findings) -> String {
 pub fn serious(findings: &Findings) -> usize {
     findings.count(Severity::Error) + findings.count(Severity::Warning)
 }
+
+/// A library to pack: the compiled one, or none, without which its own rules are broken.
+pub fn library() -> Option<Vec<u8>> {
+    compiled(&[]).filter(|_| cfg!(all(target_os = "linux", target_arch = "x86_64")))
+}
+
+/// The description with replacements; each text must be there, or nothing would be tried.
+pub fn edited(edits: &[(&str, &str)]) -> Vec<u8> {
+    let mut text = DESCRIPTION.to_owned();
+    for (from, to) in edits {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    text.into_bytes()
+}
