@@ -266,6 +266,7 @@ fn arrows_between_crates_go_one_way() {
         ("fmi2-abi", &[]),
         ("fmi2-export", &["fmi-model", "fmi2-abi"]),
         ("fmi2-import", &["fmi2-abi"]),
+        ("fmi2-check", &["fmi2-abi", "fmi2-import"]),
         ("cosim", &["fmi2-import"]),
         (
             "study",
@@ -279,6 +280,7 @@ fn arrows_between_crates_go_one_way() {
                 "astro",
                 "stats",
                 "fmi2-import",
+                "fmi2-check",
                 "cosim",
                 "study",
                 "html-report",

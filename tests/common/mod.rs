@@ -57,7 +57,7 @@ pub fn command(arguments: &[&str]) -> Command {
     let mut command = Command::new(program);
     command.args(arguments).current_dir(root());
     let first = arguments.first().copied();
-    // What answers at once has no progress.
+    // What answers at once, or says all that it does, has no progress.
     if !matches!(first, Some("list" | "inspect" | "check")) {
         command.arg("--quiet");
     }

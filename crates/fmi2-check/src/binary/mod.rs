@@ -119,6 +119,7 @@ impl Desk<'_> {
         let output = journal::output(&self.job.folder, trial.name);
         let ended = process::run(self.running, self.file, trial.name, &output)?;
         let account = journal::read(&path);
+        let nothing = account.found.is_empty();
         for (rule, element, what) in account.found {
             // That something is printed is told once.
             if let Some(rule) = by_id(&rule)
@@ -128,6 +129,11 @@ impl Desk<'_> {
             }
         }
         if let Some(good) = account.over {
+            if !good && nothing {
+                let what = format!("while {} a call had no answer to go on with", trial.about);
+                self.findings
+                    .add(&rules::SKIPPED, account.last.unwrap_or_default(), what);
+            }
             return Ok(good);
         }
         let (rule, what) = match ended {

@@ -21,7 +21,11 @@ pub(super) fn check(view: &View<'_>, findings: &mut Findings) {
                 findings.at(scaled.line, &rules::FACTOR, &scaled.path, format!("factor is {factor}"));
             }
         }
-        if unit.child("BaseUnit").is_none() {
+        // Exponents are integers, so a unit such as m/s^1.5 has no BaseUnit.
+        let fraction = unit
+            .get("name")
+            .is_some_and(|name| name.contains('.') && name.contains('^'));
+        if unit.child("BaseUnit").is_none() && !fraction {
             findings.at(unit.line, &rules::BASE, &unit.path, "there is no BaseUnit");
         }
     }
