@@ -699,7 +699,7 @@ pub struct ReproduceArgs {
 /// `check`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  trade-harness check tank.fmu\n  trade-harness check target/fmu/*.fmu --json\n  trade-harness check tank.fmu --no-run\n  trade-harness check --rules\n\n\
+    after_help = "Examples:\n  trade-harness check tank.fmu\n  trade-harness check target/fmu/*.fmu --json\n  trade-harness check tank.fmu --no-run\n  trade-harness check Toy.fmu --with-tool --preload python\n  trade-harness check --rules\n\n\
         Exit code 0: no error, though there may be warnings and notes. 1: the standard is broken. 2: a file cannot be read."
 )]
 pub struct CheckArgs {
@@ -712,6 +712,9 @@ pub struct CheckArgs {
     /// Do not run the library, only read the files
     #[arg(long)]
     pub no_run: bool,
+    /// Run the library of an FMU that needs a tool, too; the tool is installed
+    #[arg(long, conflicts_with = "no_run")]
+    pub with_tool: bool,
     /// The longest that one trial of the library may take, s
     #[arg(long, value_name = "S", default_value = "60", value_parser = seconds)]
     pub limit: f64,

@@ -27,7 +27,7 @@ pub use binary::serve;
 pub use error::CheckError;
 pub use finding::{Finding, Findings};
 pub use options::Running;
-pub use render::rule_table;
+pub use render::document;
 pub use rule::{Rule, Severity};
 
 use archive::{Archive, DESCRIPTION};

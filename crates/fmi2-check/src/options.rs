@@ -10,6 +10,8 @@ pub struct Running {
     pub program: Box<dyn Fn() -> Command>,
     /// The longest that one trial may take.
     pub limit: Duration,
+    /// Whether FMUs are run that need a tool (`needsExecutionTool`), which has to be installed.
+    pub with_tool: bool,
 }
 
 impl Running {
@@ -21,6 +23,7 @@ impl fmt::Debug for Running {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Running")
             .field("limit", &self.limit)
+            .field("with_tool", &self.with_tool)
             .finish_non_exhaustive()
     }
 }

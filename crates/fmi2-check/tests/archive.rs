@@ -6,7 +6,7 @@ mod common;
 
 use std::collections::BTreeSet;
 
-use common::{Files, LIBRARY, edited, found_in, good, library, lines, names, serious};
+use common::{Files, LIBRARY, edited, found_in, good, library, lines, names, score, serious};
 use fmi2_check::rules;
 
 /// Adds a file.
@@ -148,11 +148,7 @@ fn every_defect_of_the_archive_is_named() {
             missed.push(format!("no {rule} of {element}\n{}", lines(&findings)));
         }
     }
-    println!(
-        "mutation score of the archive: {} of {}",
-        all.len() - missed.len(),
-        all.len()
-    );
+    score("archive", all.len(), &missed);
     assert!(missed.is_empty(), "{}", missed.join("\n"));
 }
 

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{compiled, found_running, good, lines, names};
+use common::{compiled, found_running, good, lines, names, score};
 use fmi2_check::rules;
 
 /// Switch of the source, rule, element.
@@ -116,10 +116,6 @@ fn every_defect_of_the_library_is_named() {
         }
     });
     let missed = missed.into_inner().unwrap();
-    println!(
-        "mutation score of the library: {} of {}",
-        DEFECTS.len() - missed.len(),
-        DEFECTS.len()
-    );
+    score("library", DEFECTS.len(), &missed);
     assert!(missed.is_empty(), "{}", missed.join("\n"));
 }

@@ -6,7 +6,7 @@ mod common;
 
 use std::collections::BTreeSet;
 
-use common::{edited, found_in, good, library, lines, names, serious};
+use common::{edited, found_in, good, library, lines, names, score, serious};
 use fmi2_check::rules;
 
 /// What is replaced in the description, by what, the rule and the element that have to be named.
@@ -43,6 +43,7 @@ const XML: &[Edit] = &[
         "xml.element",
         "CoSimulation/Extra",
     ),
+    ("<File name=\"good.c\"/>", "<File name=\"./good.c\"/>", "nothing", ""),
     (
         "<DefaultExperiment startTime=\"0\" stopTime=\"2\" tolerance=\"1e-6\" stepSize=\"0.1\"/>",
         "",
@@ -579,7 +580,7 @@ fn every_defect_of_the_description_is_named() {
             missed.push(format!("{edits:?}: no {rule} of {element}\n{}", lines(&findings)));
         }
     }
-    println!("mutation score of the description: {} of {tried}", tried - missed.len());
+    score("description", tried, &missed);
     assert!(missed.is_empty(), "{}", missed.join("\n"));
 }
 

@@ -68,6 +68,7 @@ fn running(args: &CheckArgs) -> Result<Running, HarnessError> {
     Ok(Running {
         program: Box::new(program),
         limit: Duration::from_secs_f64(args.limit),
+        with_tool: args.with_tool,
     })
 }
 

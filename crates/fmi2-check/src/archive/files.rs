@@ -61,12 +61,13 @@ fn sources(archive: &Archive, interfaces: &[&Node], findings: &mut Findings) {
     for interface in interfaces {
         for file in interface.inside("SourceFiles", "File") {
             listed = true;
-            if let Some(name) = file
-                .get("name")
-                .filter(|name| !archive.contains(&format!("sources/{name}")))
-            {
+            // Some tools write `./` first, which is the folder itself.
+            let steps = file.get("name").into_iter().flat_map(|name| name.split('/'));
+            let steps: Vec<&str> = steps.filter(|step| !["", "."].contains(step)).collect();
+            let name = format!("sources/{}", steps.join("/"));
+            if !steps.is_empty() && !archive.contains(&name) {
                 let what = format!("it is listed in SourceFiles of {}, and not there", interface.name);
-                findings.at(file.line, &rules::SOURCE, format!("sources/{name}"), what);
+                findings.at(file.line, &rules::SOURCE, name, what);
             }
         }
     }

@@ -36,6 +36,7 @@ fn all_of(file: &str) -> Result<bool, CheckError> {
             program
         }),
         limit: Running::LIMIT,
+        with_tool: false,
     };
     let findings = check(Path::new(file), Some(&running))?;
     for Finding {

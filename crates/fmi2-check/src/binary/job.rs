@@ -20,6 +20,8 @@ pub(super) struct Job {
     pub(super) resources: PathBuf,
     /// Where a trial keeps what the next one reads.
     pub(super) folder: PathBuf,
+    /// The longest that a trial may take, s.
+    pub(super) limit: f64,
     pub(super) guid: String,
     pub(super) once: bool,
     pub(super) own_memory: bool,
@@ -79,6 +81,7 @@ impl Job {
             library: PathBuf::new(),
             resources: PathBuf::new(),
             folder: PathBuf::new(),
+            limit: 0.0,
             guid: view.root.get("guid").unwrap_or_default().to_owned(),
             once: flag("canBeInstantiatedOnlyOncePerProcess"),
             own_memory: flag("canNotUseMemoryManagementFunctions"),

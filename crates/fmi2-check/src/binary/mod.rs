@@ -15,6 +15,7 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
+use std::thread;
 use std::time::Duration;
 
 use fmi2_import::{LIBRARY_SUFFIX, PLATFORM};
@@ -52,7 +53,7 @@ pub(crate) fn check(
         skip(findings, "not run, since it is not for co-simulation".to_owned());
         return Ok(());
     };
-    if interface.get("needsExecutionTool").and_then(boolean) == Some(true) {
+    if interface.get("needsExecutionTool").and_then(boolean) == Some(true) && !running.with_tool {
         skip(findings, "not run, since it needs a tool".to_owned());
         return Ok(());
     }
@@ -78,6 +79,7 @@ pub(crate) fn check(
     job.library = unpacked.join(&entry);
     job.resources = unpacked.join("resources");
     job.folder = folder.path().to_owned();
+    job.limit = running.limit.as_secs_f64();
     let file = folder.path().join(JOB);
     let failed = |source| CheckError::Process { source };
     fs::write(&file, serde_json::to_vec(&job)?).map_err(failed)?;
@@ -173,6 +175,12 @@ pub fn serve(job: &Path, trial: &str) -> Result<(), CheckError> {
     let journal =
         Journal::begin(&journal::path(&told.folder, trial.name)).map_err(|source| CheckError::Process { source })?;
     let output = journal::output(&told.folder, trial.name);
+    let patience = Duration::from_secs_f64(2.0 * told.limit + 1.0);
+    // A library that hangs does not outlive a parent that was killed.
+    thread::spawn(move || {
+        thread::sleep(patience);
+        std::process::abort();
+    });
     let surroundings = Surroundings::now();
     let library = match library::Library::load(&told.library, &told.resources) {
         Ok(library) => library,

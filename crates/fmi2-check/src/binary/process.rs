@@ -37,9 +37,6 @@ pub(super) fn run(running: &Running, job: &Path, trial: &str, output: &Path) -> 
         .stdin(Stdio::null())
         .stdout(File::create(output).map_err(failed)?)
         .stderr(Stdio::null());
-    // Ctrl-C at the terminal is for the parent.
-    #[cfg(unix)]
-    std::os::unix::process::CommandExt::process_group(&mut command, 0);
     let mut child = command.spawn().map_err(failed)?;
     wait(&mut child, running.limit).map_err(failed)
 }

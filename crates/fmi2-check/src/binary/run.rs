@@ -50,14 +50,14 @@ impl<'a> Bench<'a> {
     }
 
     /// From instantiation, or a reset, to initialization mode.
-    pub(super) fn into_initialization(&self, instance: &Instance<'_>) -> Result<(), Failed> {
+    pub(super) fn reach_initialization(&self, instance: &Instance<'_>) -> Result<(), Failed> {
         self.expect("fmi2SetupExperiment", instance.setup(), instance)?;
         self.expect("fmi2EnterInitializationMode", instance.enter_initialization(), instance)
     }
 
     /// From instantiation, or a reset, to the first communication point.
     pub(super) fn initialize(&self, instance: &Instance<'_>) -> Result<(), Failed> {
-        self.into_initialization(instance)?;
+        self.reach_initialization(instance)?;
         self.expect("fmi2ExitInitializationMode", instance.exit_initialization(), instance)
     }
 

@@ -110,7 +110,11 @@ fn bounds(node: &Node, declared: Option<&Node>, called: &str, findings: &mut Fin
             format!("min {min} is above max {max}"),
         );
     }
-    if let Some(nominal) = node.get("nominal").and_then(double).filter(|nominal| !(*nominal > 0.0)) {
+    if let Some(nominal) = node
+        .get("nominal")
+        .and_then(double)
+        .filter(|nominal| *nominal <= 0.0 || nominal.is_nan())
+    {
         findings.at(node.line, &rules::NOMINAL, called, format!("nominal is {nominal}"));
     }
 }

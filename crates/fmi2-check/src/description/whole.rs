@@ -77,7 +77,7 @@ fn of_experiment(experiment: &Node, findings: &mut Findings) {
     let number = |name| experiment.get(name).and_then(double);
     let start = number("startTime").unwrap_or(0.0);
     if let Some(stop) = number("stopTime")
-        && !(stop > start)
+        && (stop <= start || stop.is_nan())
     {
         let what = format!("stopTime {stop} is not after startTime {start}");
         findings.at(experiment.line, &rules::EXPERIMENT_STOP, &experiment.path, what);

@@ -95,6 +95,7 @@ pub fn running() -> Running {
             program
         }),
         limit: Duration::from_secs(3),
+        with_tool: false,
     }
 }
 
@@ -135,4 +136,10 @@ pub fn edited(edits: &[(&str, &str)]) -> Vec<u8> {
         text = text.replace(from, to);
     }
     text.into_bytes()
+}
+
+/// Prints, past the test runner's capture, how many defects were named.
+pub fn score(what: &str, tried: usize, missed: &[String]) {
+    let named = tried - missed.len();
+    let _ = writeln!(std::io::stderr(), "mutation score of the {what}: {named} of {tried}");
 }

@@ -16,7 +16,7 @@ pub(super) fn initial(bench: &Bench<'_>) -> Result<(), Failed> {
     let known = |v: &Variable| {
         v.causality == Causality::Input || v.initial == Some(Initial::Exact) && v.variability != Variability::Constant
     };
-    let begin = |bench: &Bench<'_>, instance: &Instance<'_>| bench.into_initialization(instance);
+    let begin = |bench: &Bench<'_>, instance: &Instance<'_>| bench.reach_initialization(instance);
     perturb(
         bench,
         &bench.job.initial,

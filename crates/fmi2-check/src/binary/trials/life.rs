@@ -35,7 +35,7 @@ pub(super) fn life(bench: &Bench<'_>) -> Result<(), Failed> {
         }
         return Err(Failed);
     };
-    bench.into_initialization(&instance)?;
+    bench.reach_initialization(&instance)?;
     starts(bench, &instance)?;
     bench.expect("fmi2ExitInitializationMode", instance.exit_initialization(), &instance)?;
     let outputs = bench.outputs();

@@ -43,7 +43,7 @@ pub(super) fn step_at_once(bench: &Bench<'_>) -> Result<(), Failed> {
 
 pub(super) fn step_too_early(bench: &Bench<'_>) -> Result<(), Failed> {
     let instance = bench.instance()?;
-    bench.into_initialization(&instance)?;
+    bench.reach_initialization(&instance)?;
     let ended = instance.do_step(bench.job.start, bench.job.step);
     refused(
         bench,
@@ -64,7 +64,7 @@ pub(super) fn exit_at_once(bench: &Bench<'_>) -> Result<(), Failed> {
 
 pub(super) fn enter_twice(bench: &Bench<'_>) -> Result<(), Failed> {
     let instance = bench.instance()?;
-    bench.into_initialization(&instance)?;
+    bench.reach_initialization(&instance)?;
     let ended = instance.enter_initialization();
     refused(
         bench,
@@ -190,7 +190,7 @@ pub(super) fn set_unknown(bench: &Bench<'_>) -> Result<(), Failed> {
     ] {
         let reference = unknown(bench, kind);
         let instance = bench.instance()?;
-        bench.into_initialization(&instance)?;
+        bench.reach_initialization(&instance)?;
         let ended = instance.set_reference(reference, &value);
         refused(
             bench,
