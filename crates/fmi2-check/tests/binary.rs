@@ -79,6 +79,20 @@ const DEFECTS: &[(&str, &str, &str)] = &[
     ("PRINTS", "binary.stdout", "fmi2DoStep"),
 ];
 
+/// What an FMU says of its failure is part of what is told.
+#[test]
+fn the_last_words_of_an_fmu_are_told() {
+    let Some(library) = compiled(&["INSTANTIATE_NULL"]) else {
+        return;
+    };
+    let findings = found_running(&good(&library));
+    let told = lines(&findings);
+    assert!(
+        told.contains("it returned NULL; it logged: no room for a tank"),
+        "{told}"
+    );
+}
+
 /// Of the rules of a library at work, each is broken by some defect here; one only says that it cannot be run.
 #[test]
 fn every_rule_of_the_library_is_tried() {

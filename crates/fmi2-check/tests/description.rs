@@ -529,8 +529,10 @@ const XML: &[Edit] = &[
     ),
 ];
 
-/// Edits that make more than one replacement.
-const TWICE: &[(&[(&str, &str)], &str, &str)] = &[
+/// Several replacements, the rule and the element.
+type Edits = (&'static [(&'static str, &'static str)], &'static str, &'static str);
+
+const TWICE: &[Edits] = &[
     (
         &[
             (

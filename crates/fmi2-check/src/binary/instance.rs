@@ -28,6 +28,8 @@ pub(super) struct Bench<'a> {
     pub(super) output: &'a Path,
     /// Whether that something is printed is told.
     pub(super) printed: Cell<bool>,
+    /// What an instance that was not made has logged, as the tail of a sentence.
+    pub(super) last_words: RefCell<String>,
 }
 
 impl Bench<'_> {
@@ -118,6 +120,7 @@ impl<'a> Instance<'a> {
             )
         };
         bench.look_round("fmi2Instantiate");
+        bench.last_words.replace(sink.said());
         (!component.is_null()).then_some(Self {
             bench,
             component,

@@ -200,6 +200,7 @@ pub fn serve(job: &Path, trial: &str) -> Result<(), CheckError> {
         surroundings: RefCell::new(surroundings),
         output: &output,
         printed: Cell::new(false),
+        last_words: RefCell::default(),
     };
     if trial.name == LIFE.name {
         bench.look_round("loading");

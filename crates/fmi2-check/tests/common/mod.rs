@@ -123,9 +123,16 @@ pub fn serious(findings: &Findings) -> usize {
     findings.count(Severity::Error) + findings.count(Severity::Warning)
 }
 
-/// A library to pack: the compiled one, or none, without which its own rules are broken.
+/// The library to pack; nothing where it cannot be one for linux64.
 pub fn library() -> Option<Vec<u8>> {
-    compiled(&[]).filter(|_| cfg!(all(target_os = "linux", target_arch = "x86_64")))
+    if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+        return compiled(&[]);
+    }
+    let _ = writeln!(
+        std::io::stderr(),
+        "SKIPPED fmi2-check: its FMU is made for linux64 alone"
+    );
+    None
 }
 
 /// The description with replacements; each text must be there, or nothing would be tried.

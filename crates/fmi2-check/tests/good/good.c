@@ -106,6 +106,7 @@ void *fmi2Instantiate(const char *name, int type, const char *guid, const char *
     return NULL;
 #endif
 #ifdef INSTANTIATE_NULL
+  host->logger(host->environment, name, ERROR, "logStatusError", "no room for a tank");
   return NULL;
 #endif
 #ifdef ONLY_ONE

@@ -29,9 +29,8 @@ pub(super) fn life(bench: &Bench<'_>) -> Result<(), Failed> {
     }
     let Some(instance) = Instance::usual(bench) else {
         if functions.instantiate.is_some() {
-            bench
-                .journal
-                .found(&rules::INSTANTIATE, "fmi2Instantiate", "it returned NULL");
+            let what = format!("it returned NULL{}", bench.last_words.borrow());
+            bench.journal.found(&rules::INSTANTIATE, "fmi2Instantiate", what);
         }
         return Err(Failed);
     };
