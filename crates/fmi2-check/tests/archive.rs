@@ -109,6 +109,17 @@ fn archives() -> Vec<(Change, &'static str, &'static str)> {
         "archive.licence",
         "documentation/licenses/license.txt",
     );
+    for other in [
+        "binaries/win64/good.dll",
+        "binaries/darwin64/good.dylib",
+        "binaries/linux32/good.so",
+    ] {
+        let copied = move |files: &mut Files| {
+            let library = files.iter().find(|(name, _)| name == LIBRARY).unwrap().1.clone();
+            files.push((other.to_owned(), library));
+        };
+        add(Box::new(copied), "archive.machine", other);
+    }
     let terminals = "terminalsAndIcons/terminalsAndIcons.xml";
     add(
         Box::new(rewritten(terminals, b"<a></b>")),
@@ -213,6 +224,23 @@ fn sources_without_a_list_are_advised_to_have_one() {
         lines(&findings)
     );
     assert_eq!(serious(&findings), 0);
+}
+
+/// Of a model-exchange FMU the files are checked, with the functions that it has to have.
+#[test]
+fn model_exchange_has_functions_of_its_own() {
+    let Some(library) = library() else { return };
+    let mut files = good(&library);
+    files[0].1 = edited(&[
+        ("CoSimulation", "ModelExchange"),
+        (" canHandleVariableCommunicationStepSize=\"true\"", ""),
+    ]);
+    let findings = common::found_running(&files);
+    for function in ["fmi2SetTime", "fmi2GetDerivatives", "fmi2NewDiscreteStates"] {
+        assert!(names(&findings, "archive.export", function), "{}", lines(&findings));
+    }
+    assert!(!names(&findings, "archive.export", "fmi2Reset"), "{}", lines(&findings));
+    assert!(names(&findings, "binary.skipped", "binaries"), "{}", lines(&findings));
 }
 
 #[test]
