@@ -269,6 +269,7 @@ fn arrows_between_crates_go_one_way() {
         ("fmi2-export", &["fmi-model", "fmi-export", "fmi2-abi"]),
         ("fmi3-export", &["fmi-model", "fmi-export", "fmi3-abi"]),
         ("fmi2-import", &["fmi2-abi"]),
+        ("fmi2-check", &["fmi2-abi", "fmi2-import"]),
         ("cosim", &["fmi2-import"]),
         (
             "study",
@@ -282,6 +283,7 @@ fn arrows_between_crates_go_one_way() {
                 "astro",
                 "stats",
                 "fmi2-import",
+                "fmi2-check",
                 "cosim",
                 "study",
                 "html-report",

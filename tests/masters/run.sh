@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The longer tier with other people's tools: libcosim couples our FMUs, a filter made with PythonFMU takes the place of
-# fmu-nav, and valgrind watches real life cycles. Results and the virtual environment stay in target/masters.
-# What lacks a system package says SKIPPED and which.
+# fmu-nav, the checker reads and runs public FMUs, and valgrind watches real life cycles. Results and the virtual environment
+# stay in target/masters. What lacks a system package says SKIPPED and which.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -56,6 +56,8 @@ if [ -x "$python" ]; then
         # It fails in every run, which is an exit code of its own.
         study --set toy.stop_after=400 --out "$work/toy-stops" >/dev/null 2>"$work/toy.log" || [ $? = 1 ]
         "$python" "$here/toy_check.py" "$work/toy" "$work/toy-stops"
+        echo "# check: FMUs of other people, and the one that PythonFMU has built"
+        "$python" "$here/check_public.py" "$program" "$work/public" "$work/Toy.fmu"
     else
         skipped PythonFMU libpython3-dev
     fi

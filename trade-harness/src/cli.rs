@@ -51,6 +51,8 @@ pub enum Command {
     Reproduce(ReproduceArgs),
     /// Show what an FMU is and which variables it has
     Inspect(InspectArgs),
+    /// Check FMUs, anyone's, against FMI 2.0: archive, description and the library at work
+    Check(CheckArgs),
     /// Write, check and describe mission files
     #[command(subcommand)]
     Mission(MissionCommand),
@@ -65,6 +67,9 @@ pub enum Command {
     /// Make runs for a study of another process
     #[command(hide = true)]
     Worker(WorkerArgs),
+    /// Make a trial for 'check' of another process
+    #[command(hide = true)]
+    CheckTrial(CheckTrialArgs),
 }
 
 /// Where our FMUs come from.
@@ -689,6 +694,45 @@ pub struct ReproduceArgs {
     /// Where our FMUs come from.
     #[command(flatten)]
     pub build: BuildArgs,
+}
+
+/// `check`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  trade-harness check tank.fmu\n  trade-harness check target/fmu/*.fmu --json\n  trade-harness check tank.fmu --no-run\n  trade-harness check Toy.fmu --with-tool --preload python\n  trade-harness check --rules\n\n\
+        Exit code 0: no error, though there may be warnings and notes. 1: the standard is broken. 2: a file cannot be read."
+)]
+pub struct CheckArgs {
+    /// The .fmu files
+    #[arg(value_name = "FILE", required_unless_present = "rules")]
+    pub files: Vec<PathBuf>,
+    /// List every rule with its section of the standard
+    #[arg(long, conflicts_with = "files")]
+    pub rules: bool,
+    /// Do not run the library, only read the files
+    #[arg(long)]
+    pub no_run: bool,
+    /// Run the library of an FMU that needs a tool, too; the tool is installed
+    #[arg(long, conflicts_with = "no_run")]
+    pub with_tool: bool,
+    /// The longest that one trial of the library may take, s
+    #[arg(long, value_name = "S", default_value = "60", value_parser = seconds)]
+    pub limit: f64,
+    /// Every breach of every rule, not the first few
+    #[arg(long)]
+    pub all: bool,
+    /// A library that is loaded before the FMU's, as python for FMUs of PythonFMU; repeatable
+    #[arg(long, value_name = "LIBRARY")]
+    pub preload: Vec<PathBuf>,
+}
+
+/// `check-trial`.
+#[derive(Debug, Args)]
+pub struct CheckTrialArgs {
+    /// What it is told
+    pub job: PathBuf,
+    /// Which trial
+    pub trial: String,
 }
 
 /// `inspect`.

@@ -17,6 +17,9 @@ pub enum HarnessError {
     /// An FMU that cannot be used, or a name or value it does not know.
     #[error(transparent)]
     Import(Box<ImportError>),
+    /// An FMU that cannot be checked.
+    #[error(transparent)]
+    Check(#[from] fmi2_check::CheckError),
     /// An orbit, a field of gravity or a date that makes no sense.
     #[error(transparent)]
     Astro(#[from] astro::AstroError),
