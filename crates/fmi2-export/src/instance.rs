@@ -7,23 +7,23 @@ use fmi_model::{Category, Checked, Experiment, InstanceError, Log, Model, Phase,
 use fmi2_abi::{Fmi2Status, Fmi2StatusKind};
 
 use crate::error::CallError;
-use crate::log::Logger;
+use crate::log::Sink;
 use crate::order::Function;
 
 /// What most calls answer.
 pub(crate) type Answer = Result<Fmi2Status, CallError>;
 
 pub(crate) struct Instance<M> {
-    logger: Logger,
+    sink: Sink,
     model: fmi_model::Instance<M>,
     /// What the last `fmi2GetString` handed out; holds until the next call of it.
     texts: Vec<CString>,
 }
 
 impl<M: Model> Instance<M> {
-    pub(crate) fn new(logger: Logger, resources: Option<PathBuf>) -> Self {
+    pub(crate) fn new(sink: Sink, resources: Option<PathBuf>) -> Self {
         Self {
-            logger,
+            sink,
             model: resources.map_or_else(fmi_model::Instance::new, fmi_model::Instance::with_resources),
             texts: Vec::new(),
         }
@@ -52,7 +52,7 @@ impl<M: Model> Instance<M> {
 
     fn explain(&self, status: Fmi2Status, function: &Function, reason: &str) {
         let message = format!("{}: {reason}", function.name);
-        self.logger.sink.explain(status, &message);
+        self.sink.explain(status, &message);
     }
 
     /// Hands the instance to `body` with the log of the call, whose warnings become the status.
@@ -60,7 +60,7 @@ impl<M: Model> Instance<M> {
         &mut self,
         body: impl FnOnce(&mut fmi_model::Instance<M>, &mut Log<'_>) -> Result<(), InstanceError>,
     ) -> Answer {
-        let mut log = Log::new(&self.logger);
+        let mut log = Log::new(&self.sink);
         body(&mut self.model, &mut log)?;
         Ok(if log.warned() {
             Fmi2Status::Warning
@@ -76,7 +76,7 @@ impl<M: Model> Instance<M> {
             .iter()
             .map(|name| Category::from_name(name).ok_or_else(|| unknown_category(name)))
             .collect::<Result<Vec<_>, _>>()?;
-        self.logger.wanted = Wanted::new(logging_on, &categories);
+        self.sink.set_wanted(Wanted::new(logging_on, &categories));
         Ok(Fmi2Status::Ok)
     }
 

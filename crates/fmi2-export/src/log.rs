@@ -3,6 +3,8 @@
 
 use std::ffi::{CStr, CString};
 use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, Ordering};
 
 use fmi_model::{Category, Listener, Wanted};
 use fmi2_abi::{CallbackLogger, Fmi2CallbackFunctions, Fmi2ComponentEnvironment, Fmi2Status};
@@ -24,21 +26,33 @@ pub(crate) struct Sink {
     callback: Option<CallbackLogger>,
     environment: Fmi2ComponentEnvironment,
     instance_name: CString,
+    /// [`Wanted`], as last set; all clones share it.
+    wanted: Arc<AtomicU8>,
 }
 
 impl Sink {
-    /// A sink for messages of `instance_name`; keeps a copy of what it needs from `callbacks`.
-    pub(crate) fn new(callbacks: &Fmi2CallbackFunctions, instance_name: &CStr) -> Self {
+    /// A sink for messages of `instance_name`; keeps a copy of what it needs from `callbacks`. Without callbacks nobody hears
+    /// anything.
+    pub(crate) fn new(callbacks: Option<&Fmi2CallbackFunctions>, instance_name: &CStr, wanted: Wanted) -> Self {
         Self {
-            callback: callbacks.logger,
-            environment: callbacks.component_environment,
+            callback: callbacks.and_then(|callbacks| callbacks.logger),
+            environment: callbacks.map_or(std::ptr::null_mut(), |callbacks| callbacks.component_environment),
             instance_name: instance_name.to_owned(),
+            wanted: Arc::new(AtomicU8::new(wanted.to_bits())),
         }
     }
 
-    /// Sends a message that explains `status`.
+    /// Sets what the host wants to hear.
+    pub(crate) fn set_wanted(&self, wanted: Wanted) {
+        self.wanted.store(wanted.to_bits(), Ordering::Relaxed);
+    }
+
+    /// Sends a message that explains `status`, if the host wants to hear such.
     pub(crate) fn explain(&self, status: Fmi2Status, message: &dyn fmt::Display) {
-        self.send(status, category_of(status), message);
+        let category = category_of(status);
+        if self.wants(category) {
+            self.send(status, category, message);
+        }
     }
 
     fn send(&self, status: Fmi2Status, category: Category, message: &dyn fmt::Display) {
@@ -61,21 +75,15 @@ impl Sink {
     }
 }
 
-/// A finished message as a `printf` format that prints itself: `%` is doubled, a NUL becomes U+FFFD.
+/// A finished message as a `printf` format that prints itself: `%` is doubled, and so is `#`, which begins the
+/// name of a variable; a NUL becomes U+FFFD.
 fn for_printf(message: &str) -> CString {
-    CString::new(message.replace('%', "%%").replace('\0', "\u{fffd}")).unwrap_or_default()
+    CString::new(message.replace('%', "%%").replace('#', "##").replace('\0', "\u{fffd}")).unwrap_or_default()
 }
 
-/// The log of one instance: where messages go, and which debug messages the host wants.
-#[derive(Debug, Clone)]
-pub(crate) struct Logger {
-    pub(crate) sink: Sink,
-    pub(crate) wanted: Wanted,
-}
-
-impl Listener for Logger {
+impl Listener for Sink {
     fn wants(&self, category: Category) -> bool {
-        self.wanted.wants(category)
+        self.callback.is_some() && Wanted::from_bits(self.wanted.load(Ordering::Relaxed)).wants(category)
     }
 
     fn hear(&self, category: Category, message: &dyn fmt::Display) {
@@ -86,6 +94,16 @@ impl Listener for Logger {
             Category::StatusFatal => Fmi2Status::Fatal,
             Category::Events | Category::All => Fmi2Status::Ok,
         };
-        self.sink.send(status, category, message);
+        self.send(status, category, message);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_finished_message_prints_itself() {
+        assert_eq!(&*for_printf("50 % of #3\0"), c"50 %% of ##3\u{fffd}");
     }
 }

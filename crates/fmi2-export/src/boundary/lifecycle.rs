@@ -17,7 +17,7 @@ use super::memory;
 use crate::error::CallError;
 use crate::identity::{Exported, own_guid};
 use crate::instance::Instance;
-use crate::log::{Logger, Sink};
+use crate::log::Sink;
 use crate::order;
 
 pub fn get_types_platform() -> *const c_char {
@@ -47,8 +47,8 @@ pub unsafe fn set_debug_logging<M: Exported>(
 }
 
 /// Answers null for a wrong GUID, an interface other than co-simulation, an empty name, or a faulty definition, and says which to
-/// the logger. Visibility is not
-/// used, and a resource location that is no folder of this machine is taken as none.
+/// the logger if logging is on. Visibility is not used, a resource location that is no folder of this machine is taken as none, and
+/// any callback may be missing: messages then reach nobody, memory is the library's own, and steps are never asynchronous.
 pub unsafe fn instantiate<M: Exported>(
     name: Fmi2String,
     fmu_type: c_int,
@@ -58,18 +58,18 @@ pub unsafe fn instantiate<M: Exported>(
     _visible: Fmi2Boolean,
     logging_on: Fmi2Boolean,
 ) -> Fmi2Component {
-    if functions.is_null() || !functions.is_aligned() {
+    if !functions.is_aligned() {
         return ptr::null_mut(); // nobody to tell
     }
-    // SAFETY: not null, aligned, and the host vouches for what it points to.
-    let functions = unsafe { *functions };
+    // SAFETY: null or aligned, and the host vouches for what it points to.
+    let functions = unsafe { functions.as_ref() };
     let spoken_name = if name.is_null() {
         c""
     } else {
         // SAFETY: not null, and the host vouches for the terminating NUL.
         unsafe { CStr::from_ptr(name) }
     };
-    let sink = Sink::new(&functions, spoken_name);
+    let sink = Sink::new(functions, spoken_name, Wanted::new(truth(logging_on), &[]));
     let created = guarded(|| {
         // SAFETY: `name` and `guid` are strings; see the module.
         let (name, guid) = unsafe { (memory::text("instanceName", name), memory::text("fmuGUID", guid)) };
@@ -77,7 +77,7 @@ pub unsafe fn instantiate<M: Exported>(
         let location =
             (!resource_location.is_null()).then(|| unsafe { memory::text("fmuResourceLocation", resource_location) });
         let resources = location.and_then(Result::ok).and_then(folder_of);
-        let created = create::<M>(name, fmu_type, guid, resources, truth(logging_on), &sink);
+        let created = create::<M>(name, fmu_type, guid, resources, &sink);
         created.map_err(|error| error.chain())
     });
     let (status, reason) = match created {
@@ -95,7 +95,6 @@ fn create<M: Exported>(
     fmu_type: c_int,
     given: Result<&str, CallError>,
     resources: Option<PathBuf>,
-    logging_on: bool,
     sink: &Sink,
 ) -> Result<Box<Handle<M>>, CallError> {
     if name?.is_empty() {
@@ -119,11 +118,7 @@ fn create<M: Exported>(
             own,
         });
     }
-    let logger = Logger {
-        sink: sink.clone(),
-        wanted: Wanted::new(logging_on, &[]),
-    };
-    let instance = Instance::new(logger, resources);
+    let instance = Instance::new(sink.clone(), resources);
     Ok(Box::new(Handle::new(guid, sink.clone(), instance)))
 }
 
