@@ -16,6 +16,9 @@
 //! What belongs to the process is noted while no call into any library is under way, and what a call in one thread has changed
 //! is put back at the end of any. A host that changes such things itself does so between its calls.
 //!
+//! A change of the process's locale shows by the place of its name, which the C library of GNU keeps for each; others have one
+//! place for all, and there it is not noticed in time.
+//!
 //! On other systems than Unix only arithmetic and the working directory are put back, on other processors than x86-64 and AArch64
 //! no arithmetic.
 
