@@ -71,6 +71,10 @@ impl Model for TruthModel {
         Ok(())
     }
 
+    fn check_step(&self, t: f64, h: f64) -> Result<(), ModelError> {
+        self.simulation.as_ref().map_or(Ok(()), |s| Ok(s.check_end(t + h)?))
+    }
+
     fn do_step(&mut self, t: f64, h: f64, _log: &mut Log<'_>) -> Result<(), ModelError> {
         if let Some(simulation) = &mut self.simulation {
             let shown = simulation.sample().count;

@@ -66,12 +66,16 @@ else
 fi
 
 if command -v valgrind >/dev/null; then
-    echo "# valgrind: life cycles, saved states and refused calls of both FMUs"
-    test=$(cargo test --release --quiet --test lifecycle --no-run --message-format json \
-        | sed -n 's/.*"executable":"\([^"]*lifecycle[^"]*\)".*/\1/p')
-    valgrind --quiet --error-exitcode=1 --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
-        --keep-debuginfo=yes --num-callers=40 --suppressions="$here/unloaded.supp" \
-        "$test" --test-threads 1 a_damaged_state mistakes_are_refused a_model_that_cannot
+    echo "# valgrind: life cycles, saved states, refused calls and hostile calls of both FMUs"
+    watched() {
+        test=$(cargo test --release --quiet --test "$1" --no-run --message-format json \
+            | sed -n 's/.*"executable":"\([^"]*'"$1"'[^"]*\)".*/\1/p')
+        valgrind --quiet --error-exitcode=1 --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
+            --keep-debuginfo=yes --num-callers=40 --suppressions="$here/unloaded.supp" \
+            "$test" --test-threads 1 "${@:2}"
+    }
+    watched lifecycle a_damaged_state mistakes_are_refused a_model_that_cannot
+    ENDURANCE_PERCENT=2 watched border a_million_hostile_calls
 else
     skipped valgrind valgrind
 fi

@@ -8,7 +8,7 @@ use fmi_model::{
 };
 use uuid::Uuid;
 
-use crate::version::{Sink, Version};
+use crate::version::Version;
 
 /// Stands for a GUID that the build makes: a committed description cannot know it.
 const MADE_BY_THE_BUILD: &str = "{made-by-the-build}";
@@ -124,12 +124,7 @@ fn about<V: Version>(category: Category) -> String {
         Category::Events => return "noteworthy events of the model, sent while logging is on".to_owned(),
         Category::All => return "every message, details included".to_owned(),
     };
-    let when = if V::Sink::always_sent(category) {
-        "always sent"
-    } else {
-        "sent while logging is on"
-    };
-    format!("messages of calls that end in {}{ended}; {when}", V::PREFIX)
+    format!("messages of calls that end in {}{ended}, sent while logging is on", V::PREFIX)
 }
 
 /// `<DefaultExperiment>`.

@@ -47,6 +47,15 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
     /// Any error puts the instance into the failed phase; only a reset or an earlier state brings it back.
     fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError>;
 
+    /// Says why a step from `t` to `t + h` (s) cannot be taken, before any is begun: one that is longer than the model can compute
+    /// in reasonable time.
+    ///
+    /// # Errors
+    /// Any error refuses the call, and the instance stays as it was.
+    fn check_step(&self, _t: f64, _h: f64) -> Result<(), ModelError> {
+        Ok(())
+    }
+
     /// Advances from `t` to `t + h` (s, `h > 0`, both finite); `t` agrees with the end of the last step.
     ///
     /// # Errors
