@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Writes the plan that host.c runs: every filter in every mission.
 
     plan.py FOLDER STEPS > PLAN
