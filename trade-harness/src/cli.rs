@@ -11,6 +11,7 @@ use study::{
 };
 
 use crate::pack;
+use crate::platforms::Wanted;
 use crate::tuning::ranges::Range;
 use crate::tuning::standing::Objective;
 
@@ -337,12 +338,15 @@ pub struct MissionCheckArgs {
 /// `pack`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  trade-harness pack\n  trade-harness pack --out fmus\n  trade-harness pack --mission my_mission.toml --out fmus"
+    after_help = "Examples:\n  trade-harness pack\n  trade-harness pack --out fmus\n  trade-harness pack --mission my_mission.toml --out fmus\n  trade-harness pack --platforms all\n  trade-harness pack --platforms linux64,win64 --out fmus"
 )]
 pub struct PackArgs {
     /// Put this mission into both FMUs as the one they run unless told otherwise
     #[arg(long, value_name = "FILE")]
     pub mission: Option<PathBuf>,
+    /// Platforms of the archive, which then does not depend on the machine it is made on [default: this one's, as cargo builds]
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub platforms: Vec<Wanted>,
     /// Folder to write to [default: target/fmu of the workspace]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

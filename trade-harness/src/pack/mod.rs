@@ -2,13 +2,13 @@
 
 pub mod fmi3;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::{BufRead, BufReader, Cursor, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use fmi2_import::{Causality, Fmu, LIBRARY_SUFFIX, ModelDescription, PLATFORM};
+use fmi2_import::{Causality, Fmu, ModelDescription, PLATFORM};
 use interface::annotation::Filters;
 use interface::mission::{Document, EMBEDDED, PACKED, SHIPPED, guid_with};
 use study::{NAV, StudyError, TRUTH, World, filters_of};
@@ -18,6 +18,7 @@ use zip::{CompressionMethod, ZipWriter};
 use crate::HarnessError;
 use crate::digest::of_bytes;
 use crate::output::write_whole;
+use crate::platforms::{Call, Platform, joined, recipes};
 
 /// Our FMUs: crate and model name, and the identifier that library and C functions go by.
 pub const FMUS: [(&str, &str); 2] = [(TRUTH, "fmu_truth"), (NAV, "fmu_nav")];
@@ -58,30 +59,39 @@ pub fn fmu_path(folder: &Path, name: &str) -> PathBuf {
 /// [`HarnessError::NoWorkspace`], [`HarnessError::NoCargo`], [`HarnessError::Build`], [`HarnessError::NoLibrary`],
 /// reading, writing and zip errors, and [`HarnessError::DoesNotStart`] for a library and description that do not belong together.
 pub fn pack(workspace: &Path, folder: &Path, mission: Option<&Path>, quiet: bool) -> Result<Vec<Packed>, HarnessError> {
+    pack_for(&BTreeSet::new(), workspace, folder, mission, quiet)
+}
+
+/// [`pack`] for these platforms; for none, for the one that this program runs on.
+///
+/// # Errors
+/// Those of [`pack`], [`HarnessError::Platforms`] and [`HarnessError::Universal`].
+pub fn pack_for(
+    platforms: &BTreeSet<Platform>,
+    workspace: &Path,
+    folder: &Path,
+    mission: Option<&Path>,
+    quiet: bool,
+) -> Result<Vec<Packed>, HarnessError> {
     let (world, resources) = resources(mission)?;
-    let built = build(workspace, quiet)?;
+    let built = build_all(platforms, workspace, quiet)?;
     let mut packed = Vec::new();
     for (name, identifier) in FMUS {
         let no_library = || HarnessError::NoLibrary {
             target: identifier.to_owned(),
         };
-        let library = built.libraries.get(identifier).ok_or_else(no_library)?;
+        let libraries = built.libraries.get(identifier).ok_or_else(no_library)?;
         let guid = built.guids.get(name).ok_or_else(no_library)?;
         let description = workspace
             .join("modelDescription")
             .join(name)
             .join("modelDescription.xml");
         let inside = world.as_ref().zip(resources.get(&packed_mission()));
-        let mut files = BTreeMap::from([
-            (
-                "modelDescription.xml".to_owned(),
-                described(read(&description)?, "guid", guid, inside),
-            ),
-            (
-                format!("binaries/{PLATFORM}/{identifier}.{LIBRARY_SUFFIX}"),
-                read(library)?,
-            ),
-        ]);
+        let mut files = BTreeMap::from([(
+            "modelDescription.xml".to_owned(),
+            described(read(&description)?, "guid", guid, inside),
+        )]);
+        files.extend(libraries.clone());
         files.extend(resources.clone());
         let path = fmu_path(folder, name);
         files.insert(
@@ -169,17 +179,42 @@ fn attribute<'a>(xml: &'a str, name: &str) -> &'a str {
     rest.split('"').next().unwrap_or_default()
 }
 
-/// What cargo made.
-#[derive(Debug, Default)]
-struct Built {
-    /// Shared library of each identifier.
-    libraries: BTreeMap<String, PathBuf>,
+/// What cargo made: `Library` of each identifier.
+#[derive(Debug)]
+struct Built<Library> {
+    libraries: BTreeMap<String, Library>,
     /// GUID of each crate's build, without braces.
     guids: BTreeMap<&'static str, String>,
 }
 
-/// Runs cargo.
-fn build(workspace: &Path, quiet: bool) -> Result<Built, HarnessError> {
+/// The libraries of every platform by their names in the archive.
+fn build_all(platforms: &BTreeSet<Platform>, workspace: &Path, quiet: bool) -> Result<Built<Files>, HarnessError> {
+    let mut all = Built {
+        libraries: BTreeMap::<String, Files>::new(),
+        guids: BTreeMap::new(),
+    };
+    for recipe in recipes(platforms)? {
+        let mut parts: BTreeMap<String, Vec<Vec<u8>>> = BTreeMap::new();
+        for call in &recipe.calls {
+            let built = build(workspace, quiet, call, recipe.suffix)?;
+            for (identifier, library) in built.libraries {
+                parts.entry(identifier).or_default().push(read(&library)?);
+            }
+            all.guids.extend(built.guids);
+        }
+        for (identifier, parts) in parts {
+            let name = format!("binaries/{}/{identifier}.{}", recipe.folder, recipe.suffix);
+            all.libraries
+                .entry(identifier)
+                .or_default()
+                .insert(name, joined(parts)?);
+        }
+    }
+    Ok(all)
+}
+
+/// Runs cargo once, for libraries of this suffix.
+fn build(workspace: &Path, quiet: bool, call: &Call, suffix: &str) -> Result<Built<PathBuf>, HarnessError> {
     let manifest = workspace.join("Cargo.toml");
     if !FMUS
         .iter()
@@ -189,16 +224,11 @@ fn build(workspace: &Path, quiet: bool) -> Result<Built, HarnessError> {
             path: workspace.to_owned(),
         });
     }
-    let program = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
-    let mut command = Command::new(&program);
-    command.args([
-        "build",
-        "--release",
-        "--message-format",
-        "json-render-diagnostics",
-        "--manifest-path",
-    ]);
+    let mut command = Command::new(&call.program);
+    command.args(&call.arguments);
+    command.args(["--message-format", "json-render-diagnostics", "--manifest-path"]);
     command.arg(&manifest);
+    command.envs(call.environment.iter().map(|(name, value)| (name, value)));
     for (name, _) in FMUS {
         command.args(["--package", name]);
     }
@@ -206,7 +236,7 @@ fn build(workspace: &Path, quiet: bool) -> Result<Built, HarnessError> {
         command.arg("--quiet");
     }
     let no_cargo = |source| HarnessError::NoCargo {
-        program: program.clone(),
+        program: call.program.clone(),
         source,
     };
     let mut child = command
@@ -214,10 +244,13 @@ fn build(workspace: &Path, quiet: bool) -> Result<Built, HarnessError> {
         .stdout(Stdio::piped())
         .spawn()
         .map_err(no_cargo)?;
-    let mut built = Built::default();
+    let mut built = Built {
+        libraries: BTreeMap::new(),
+        guids: BTreeMap::new(),
+    };
     if let Some(messages) = child.stdout.take() {
         for line in BufReader::new(messages).lines().map_while(Result::ok) {
-            built.libraries.extend(library_of(&line));
+            built.libraries.extend(library_of(&line, suffix));
             built.guids.extend(guid_of(&line));
         }
     }
@@ -230,7 +263,7 @@ fn build(workspace: &Path, quiet: bool) -> Result<Built, HarnessError> {
 }
 
 /// Target and file of a shared library, if this line of cargo's JSON messages tells of one.
-fn library_of(line: &str) -> Option<(String, PathBuf)> {
+fn library_of(line: &str, suffix: &str) -> Option<(String, PathBuf)> {
     let message: serde_json::Value = serde_json::from_str(line).ok()?;
     if message["reason"] != "compiler-artifact" {
         return None;
@@ -240,7 +273,7 @@ fn library_of(line: &str) -> Option<(String, PathBuf)> {
         .iter()
         .filter_map(|f| f.as_str())
         .map(Path::new)
-        .find(|f| f.extension().is_some_and(|extension| extension == LIBRARY_SUFFIX))?;
+        .find(|f| f.extension().is_some_and(|extension| extension == suffix))?;
     Some((message["target"]["name"].as_str()?.to_owned(), library.to_owned()))
 }
 
@@ -307,7 +340,7 @@ fn read(path: &Path) -> Result<Vec<u8>, HarnessError> {
     })
 }
 
-/// Opens and starts the FMU as far as it is, so that a description that does not belong to the library is found here,
+/// Opens the FMU as far as it is, and starts it where it has a library for this platform, so that a description that does not belong to the library is found here,
 /// and describes it.
 fn documentation(name: &'static str, path: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>, HarnessError> {
     let unwritable = |source| HarnessError::Write {
@@ -317,11 +350,16 @@ fn documentation(name: &'static str, path: &Path, files: &BTreeMap<String, Vec<u
     let mut trial = tempfile::Builder::new().suffix(".fmu").tempfile().map_err(unwritable)?;
     trial.write_all(&archive(path, files)?).map_err(unwritable)?;
     let fmu = Fmu::open(trial.path())?;
-    fmu.instantiate("pack", false)
-        .map_err(|source| HarnessError::DoesNotStart {
-            name,
-            source: Box::new(source),
-        })?;
+    if files
+        .keys()
+        .any(|file| file.starts_with(&format!("binaries/{PLATFORM}/")))
+    {
+        fmu.instantiate("pack", false)
+            .map_err(|source| HarnessError::DoesNotStart {
+                name,
+                source: Box::new(source),
+            })?;
+    }
     Ok(html(fmu.description(), &filters_of(fmu.description())?).into_bytes())
 }
 
@@ -404,6 +442,7 @@ fn escape(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fmi2_import::LIBRARY_SUFFIX;
     use std::io::Read;
 
     #[test]
@@ -460,7 +499,7 @@ mod tests {
         let line = format!(
             r#"{{"reason":"compiler-artifact","target":{{"name":"fmu_nav","kind":["cdylib"]}},"filenames":["/t/libfmu_nav.{LIBRARY_SUFFIX}","/t/libfmu_nav.d"]}}"#
         );
-        let found = library_of(&line).unwrap();
+        let found = library_of(&line, LIBRARY_SUFFIX).unwrap();
         assert_eq!(
             found,
             (
@@ -468,8 +507,8 @@ mod tests {
                 PathBuf::from(format!("/t/libfmu_nav.{LIBRARY_SUFFIX}"))
             )
         );
-        assert!(library_of(r#"{"reason":"build-finished","success":true}"#).is_none());
-        assert!(library_of("no json").is_none());
+        assert!(library_of(r#"{"reason":"build-finished","success":true}"#, LIBRARY_SUFFIX).is_none());
+        assert!(library_of("no json", LIBRARY_SUFFIX).is_none());
     }
 
     #[test]
