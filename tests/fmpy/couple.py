@@ -8,10 +8,12 @@ they read back exactly.
 
 import argparse
 import csv
-import shutil
+import sys
+from pathlib import Path
 
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "examples" / "05_closed_loop"))
+
+from coupling import Loop, Slave  # noqa: E402
 
 WRITTEN = ["est.time", "est.count"] + [
     f"{name}[{i}]"
@@ -21,52 +23,6 @@ WRITTEN = ["est.time", "est.count"] + [
     )
     for i in (1, 2, 3)
 ]
-
-
-class Slave:
-    """An FMU with its variables by name."""
-
-    def __init__(self, path, name):
-        self.description = read_model_description(path)
-        self.variables = {v.name: v for v in self.description.modelVariables}
-        self.folder = extract(path)
-        self.fmu = FMU2Slave(
-            guid=self.description.guid,
-            unzipDirectory=self.folder,
-            modelIdentifier=self.description.coSimulation.modelIdentifier,
-            instanceName=name,
-        )
-        self.fmu.instantiate()
-
-    def _accessor(self, verb, name):
-        kind = self.variables[name].type
-        return getattr(self.fmu, verb + ("Integer" if kind == "Enumeration" else kind))
-
-    def set(self, name, value):
-        self._accessor("set", name)([self.variables[name].valueReference], [value])
-
-    def set_text(self, name, text):
-        """Set a parameter from text: a number, true or false, or the name of an enumeration item."""
-        variable = self.variables[name]
-        if variable.type == "Enumeration":
-            items = [item.name for item in variable.declaredType.items]
-            self.set(name, items.index(text) + 1)
-        elif variable.type == "Boolean":
-            self.set(name, text == "true")
-        elif variable.type == "String":
-            self.set(name, text)
-        elif variable.type == "Integer":
-            self.set(name, int(text))
-        else:
-            self.set(name, float(text))
-
-    def get(self, name):
-        return self._accessor("get", name)([self.variables[name].valueReference])[0]
-
-    def close(self):
-        self.fmu.terminate()
-        self.fmu.freeInstance()
-        shutil.rmtree(self.folder, ignore_errors=True)
 
 
 def main():
@@ -99,43 +55,19 @@ def main():
         model, name = target.split(".", 1)
         {"fmu-truth": truth, "fmu-nav": nav}[model].set_text(name, value)
 
-    # Equal names connect: that is the whole wiring rule.
-    wires = [
-        name
-        for name, variable in nav.variables.items()
-        if variable.causality == "input"
-        and name in truth.variables
-        and truth.variables[name].causality == "output"
-    ]
-
-    def hand_over():
-        for name in wires:
-            nav.set(name, truth.get(name))
-
-    for slave in (truth, nav):
-        slave.fmu.setupExperiment(startTime=0.0)
-        slave.fmu.enterInitializationMode()
-        slave.fmu.exitInitializationMode()
-
+    loop = Loop([truth, nav], arguments.scheme)
+    loop.start()
     with open(arguments.out, "w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(WRITTEN)
         used = 0
         for k in range(round(arguments.stop / arguments.step)):
-            now = k * arguments.step
-            if arguments.scheme == "jacobi":
-                hand_over()
-                truth.fmu.doStep(now, arguments.step)
-            else:
-                truth.fmu.doStep(now, arguments.step)
-                hand_over()
-            nav.fmu.doStep(now, arguments.step)
+            loop.step(arguments.step, k)
             count = nav.get("est.count")
             if count > used:
                 used = count
                 writer.writerow([repr(nav.get(name)) for name in WRITTEN])
-    truth.close()
-    nav.close()
+    loop.close()
 
 
 if __name__ == "__main__":
