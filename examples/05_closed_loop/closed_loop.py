@@ -15,18 +15,20 @@ from pathlib import Path
 from coupling import Loop, Slave
 from pulse import share
 
-# What is set besides scenario and filter. The target's mass is for the force of its vents.
-SETTINGS = {"fmu-truth": {"guidance.burn_enabled": "false", "target.mass": "20000"}}
+# What is set besides scenario and filter.
+SETTINGS = (Path(__file__).parent / "settings.txt").read_text().split()
 DURATION, SETTLED, ERRORS_UNTIL = 5680.0, 300.0, 1500.0
 PULSE_M_S2 = 1e-2
 # From guidance's 120 s on the reference moves, and the estimate has come from metres to centimetres by 300 s.
 HELD_WITHIN_M = 3.0
 
 
-def seated(fmus, name, settings=None, filter_name=None):
+def seated(fmus, name, settings=(), filter_name=None):
     slave = Slave(fmus / f"{name}.fmu", name)
-    for variable, text in (settings or {}).get(name, {}).items():
-        slave.set_text(variable, text)
+    for target, text in (assignment.split("=") for assignment in settings):
+        model, variable = target.split(".", 1)
+        if model == name:
+            slave.set_text(variable, text)
     if filter_name and name == "fmu-nav":
         slave.set_text("filter", filter_name)
     return slave
@@ -53,7 +55,7 @@ def root_mean_square(values):
 def fly(fmus, filter_name, step, scheme, duration=DURATION, closed=True):
     """One flight: rows of time, place and its reference in LVLH, errors of est, pred and guidance when a command acts, m, dv, flow."""
     names = ["fmu-truth", "fmu-nav", "Guidance", "LifeSupport"] if closed else ["fmu-truth", "fmu-nav"]
-    loop = Loop([seated(fmus, name, SETTINGS if closed else None, filter_name) for name in names], scheme)
+    loop = Loop([seated(fmus, name, SETTINGS if closed else (), filter_name) for name in names], scheme)
     truth, nav, guidance, life = (loop.slaves + [None, None])[:4]
     loop.start()
     rows = []

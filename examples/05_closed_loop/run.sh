@@ -11,6 +11,7 @@ read -r -a flags <<<"${HARNESS_FLAGS:-}"
 here=examples/05_closed_loop
 out=${OUT:-results/closed_loop}
 work=target/closed_loop
+mapfile -t settings <"$here/settings.txt"
 python=$work/venv/bin/python
 mkdir -p "$work" "$out"
 environment "$work" "$here/requirements.txt" "$here"
@@ -26,7 +27,7 @@ done
 
 # One file for any tool that reads SSP. Truth, filter, guidance: the order of a Gauss-Seidel master.
 "$python" "$here/ssp.py" "$out/closed_loop.ssp" "$out"/{fmu-truth,fmu-nav,Guidance,LifeSupport}.fmu \
-    fmu-truth.guidance.burn_enabled=false fmu-truth.target.mass=20000
+    "${settings[@]}"
 
 if [ -n "${QUICK:-}" ]; then
     "$python" "$here/closed_loop.py" --fmus "$out" --quick
@@ -41,7 +42,7 @@ interpreter=$("$python" -c 'import os, sysconfig as s; print(os.path.join(*s.get
 if [ -f "$interpreter" ] && [[ $interpreter == *.so* ]]; then
     "${harness[@]}" compare --scenario leo_venting --filters "$filters" --runs "${RUNS:-5}" \
         --drive "guide=$out/Guidance.fmu" --drive "life=$out/LifeSupport.fmu" --preload "$interpreter" \
-        --set fmu-truth.guidance.burn_enabled=false --set fmu-truth.target.mass=20000 --out "$out/study" "${flags[@]}"
+        "${settings[@]/#/--set=}" --out "$out/study" "${flags[@]}"
 else
     echo "SKIPPED the study of $here: needs the system package libpython3-dev"
 fi

@@ -21,6 +21,11 @@ def version():
     return f"fmucontainer {installed('fmu_manipulation_toolbox')}"
 
 
+def shown(model, name):
+    """Name of an output of the container; MODEL.NAME is that of a wire within."""
+    return f"shown.{model}.{name}"
+
+
 def points(case, scheme):
     models = case.models()
     files = {name: model.path.name for name, model in models.items()}
@@ -43,7 +48,7 @@ def points(case, scheme):
             [files[source.name], name, files[reader.name], name]
             for source, name, reader in ssp.wiring(list(models.values()))
         ],
-        "output": [[files[model], name, f"{model}.{name}"] for model, name in case.read],
+        "output": [[files[model], name, shown(model, name)] for model, name in case.read],
         "start": [
             [files[model], name, converted[models[model].kind(name)](text)]
             for model, settings in case.settings.items()
@@ -59,5 +64,5 @@ def points(case, scheme):
     slave.start()
     for k in range(case.steps):
         slave.fmu.doStep(k * case.step, case.step)
-        yield [slave.get(f"{model}.{name}") for model, name in case.read]
+        yield [slave.get(shown(model, name)) for model, name in case.read]
     slave.close()
