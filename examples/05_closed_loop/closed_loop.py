@@ -53,7 +53,11 @@ def root_mean_square(values):
 
 
 def fly(fmus, filter_name, step, scheme, duration=DURATION, closed=True):
-    """One flight: rows of time, place and its reference in LVLH, errors of est, pred and guidance when a command acts, m, dv, flow."""
+    """One flight, a row for each step.
+
+    place, reference: where the chaser is and should be, LVLH, m; off: between them. est, pred, taken: errors of position
+    as the filter says it and as guidance takes it, when the command that rests on it acts, m. dv: m/s. flow of vents: kg/s.
+    """
     names = ["fmu-truth", "fmu-nav", "Guidance", "LifeSupport"] if closed else ["fmu-truth", "fmu-nav"]
     loop = Loop([seated(fmus, name, SETTINGS if closed else (), filter_name) for name in names], scheme)
     truth, nav, guidance, life = (loop.slaves + [None, None])[:4]

@@ -43,7 +43,7 @@ class Guidance(Fmi2Slave):
         # m/s2, axes N: held over the communication step that follows.
         self.a_cmd = [0.0] * 3
         register(self, "a_cmd_c_n", self.a_cmd, causality.output)
-        # Target relative to chaser as taken for the time at which the command acts; sum of all changes of velocity, m/s;
+        # Target relative to chaser as taken for when the command acts; sum of all changes of velocity, m/s;
         # where the chaser should be, m, LVLH.
         self.taken, self.dv, self.reference = [0.0] * 3, [0.0], [0.0] * 3
         register(self, "guidance.r_tc_n", self.taken, causality.output)
@@ -84,7 +84,7 @@ class Guidance(Fmi2Slave):
         return True
 
     def relative(self, acts):
-        """Axes and rate of the target's LVLH frame, position and velocity of the chaser in it, when the command acts."""
+        """Axes and rate of the target's LVLH frame, place and velocity of the chaser in it, when the command acts."""
         # Zero in a Gauss-Seidel master, a communication step in a Jacobi master.
         late = acts - self.pred_time[0]
         v_tc = [v - a * late for v, a in zip(self.v_tc, self.a_cmd)]

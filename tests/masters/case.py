@@ -5,18 +5,18 @@ import sys
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "examples" / "05_closed_loop"))
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "05_closed_loop"
+sys.path.insert(0, str(EXAMPLE))
 
 import ssp  # noqa: E402
-
-GAUSS_SEIDEL, JACOBI = "gauss-seidel", "jacobi"
 
 
 @dataclass
 class Case:
     """What a case is made of.
 
-    fmus: paths in the order of a Gauss-Seidel master. settings: text by variable, by model. read: [model, variable] each.
+    fmus: paths in the order of a Gauss-Seidel master. settings: text by variable, by model. read: [model, variable]
+    each.
     """
 
     name: str

@@ -12,7 +12,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from case import Case
+from case import EXAMPLE, Case, ssp
 from master import MODULES, NOT_HERE
 
 HERE = Path(__file__).parent
@@ -68,8 +68,6 @@ def fly(work, module, scheme, case):
 
 def index(model_path, enumeration, item):
     """Number of an item, for `scenario_index` and `filter_index`."""
-    import ssp
-
     types = ssp.Model(model_path).root.find("TypeDefinitions")
     of = next(
         t for t in types if any(i.get("name") == item for i in t.iter("Item")) and t.get("name").lower() == enumeration
@@ -146,15 +144,12 @@ def closed_loop(work, tools):
     """Verdict of each master against the first of the same order and step."""
     names = ("fmu-truth", "fmu-nav", "Guidance", "LifeSupport")
     fmus = [str(work / "fmu" / f"{name}.fmu") for name in names]
-    settings = {
-        "fmu-truth": {
-            "study_seed": str(SEED),
-            "run": str(RUN),
-            "guidance.burn_enabled": "false",
-            "target.mass": "20000",
-        },
-        "fmu-nav": {"study_seed": str(SEED), "run": str(RUN), "filter_index": index(fmus[1], "filter", "snc")},
-    }
+    both = {"study_seed": str(SEED), "run": str(RUN)}
+    settings = {"fmu-truth": dict(both), "fmu-nav": both | {"filter_index": index(fmus[1], "filter", "snc")}}
+    for assignment in (EXAMPLE / "settings.txt").read_text().split():
+        target, text = assignment.split("=")
+        model, name = target.split(".", 1)
+        settings[model][name] = text
     read = [
         ["fmu-nav", name]
         for name in ("est.count", *elements(["est.r_tc_n", "est.v_tc_n", "pred.r_tc_n", "pred.v_tc_n"]))
