@@ -7,7 +7,7 @@
 
 mod common;
 
-use common::{fmu, harness_ok, read_csv, root, skipped, virtual_environment};
+use common::{fmu, harness_ok, read_csv, root, skipped, twin, virtual_environment};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -31,15 +31,14 @@ fn python() -> Option<&'static Path> {
         .as_deref()
 }
 
-/// Runs a script of `tests/fmpy`, or one by its path from the root; returns what it printed, or `None` when it was skipped.
+/// Runs a script of `tests/fmpy`; returns what it printed, or `None` when it was skipped.
 fn script(test: &str, name: &str, arguments: &[&str]) -> Option<String> {
     let Some(python) = python() else {
         skipped(test, "python3-venv");
         return None;
     };
-    let folder = if name.contains('/') { "." } else { "tests/fmpy" };
     let output = Command::new(python)
-        .arg(root().join(folder).join(name))
+        .arg(root().join("tests/fmpy").join(name))
         .args(arguments)
         .output()
         .unwrap();
@@ -56,10 +55,11 @@ fn text(path: &Path) -> &str {
 }
 
 #[test]
-fn fmpy_finds_nothing_to_say_about_either_fmu() {
-    let (truth, nav) = (fmu("fmu-truth"), fmu("fmu-nav"));
-    if let Some(out) = script("validate", "validate.py", &[text(&truth), text(&nav)]) {
-        assert_eq!(out.lines().count(), 2, "{out}");
+fn fmpy_finds_nothing_to_say_about_any_fmu() {
+    let fmus = [fmu("fmu-truth"), fmu("fmu-nav"), twin("fmu-truth"), twin("fmu-nav")];
+    if let Some(out) = script("validate", "validate.py", &fmus.each_ref().map(|path| text(path))) {
+        let versions: Vec<_> = out.lines().map(|line| line.rsplit(' ').next().unwrap()).collect();
+        assert_eq!(versions, ["2.0", "2.0", "3.0", "3.0"], "{out}");
     }
 }
 
@@ -83,6 +83,94 @@ fn fmpy_simulates_each_fmu_alone() {
     // Without a world the filter waits for its first sample, without complaint.
     if let Some(out) = script("nav alone", "alone.py", &[text(&fmu("fmu-nav")), "est.count", "status"]) {
         assert_eq!(out.lines().collect::<Vec<_>>(), ["est.count 0", "status 1"]);
+    }
+}
+
+/// The FMI 3.0 twins step the same library, and a vector is one variable.
+#[test]
+fn fmpy_simulates_each_twin_alone() {
+    let outputs = [text(&twin("fmu-truth")), "sample_count", "truth.r_tc_n"].map(str::to_owned);
+    if let Some(out) = script("truth twin alone", "alone.py", &outputs.each_ref().map(String::as_str)) {
+        let alone = [
+            text(&fmu("fmu-truth")),
+            "truth.r_tc_n[1]",
+            "truth.r_tc_n[2]",
+            "truth.r_tc_n[3]",
+        ]
+        .map(str::to_owned);
+        let two = script("truth alone", "alone.py", &alone.each_ref().map(String::as_str)).unwrap();
+        let elements: Vec<_> = two.lines().map(|line| line.split_once(' ').unwrap().1).collect();
+        let vector = format!("truth.r_tc_n [{}]", elements.join(", "));
+        assert_eq!(out.lines().collect::<Vec<_>>(), ["sample_count 5680", &vector]);
+    }
+    let outputs = [text(&twin("fmu-nav")), "est.count", "status"].map(str::to_owned);
+    if let Some(out) = script("nav twin alone", "alone.py", &outputs.each_ref().map(String::as_str)) {
+        assert_eq!(out.lines().collect::<Vec<_>>(), ["est.count 0", "status 1"]);
+    }
+}
+
+/// Whole arrays handed over by name, in every world: each sample's estimate as the FMI 2.0 FMUs have it, to the bit.
+#[test]
+fn fmpy_couples_the_twins_to_the_same_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let estimates = |[truth, nav]: [PathBuf; 2], name: &str, [world, filter]: [&str; 2], [scheme, step]: [&str; 2]| {
+        let out = folder.path().join(name);
+        let fmus = ["--truth", text(&truth), "--nav", text(&nav), "--out", text(&out)];
+        let what = [
+            "--scenario",
+            world,
+            "--filter",
+            filter,
+            "--run",
+            "3",
+            "--seed",
+            "7",
+            "--stop",
+            "600",
+        ];
+        let how = ["--scheme", scheme, "--step", step];
+        script("twins", "couple.py", &[&fmus[..], &what[..], &how[..]].concat())?;
+        Some(std::fs::read_to_string(out).unwrap())
+    };
+    for (what, how, rows) in [
+        (["leo_venting", "hybrid"], ["gauss-seidel", "1"], 600),
+        (["leo_venting", "milton"], ["jacobi", "0.25"], 599),
+        (["leo_venting", "constrained_q"], ["gauss-seidel", "0.5"], 600),
+        (["nrho_venting", "imm"], ["gauss-seidel", "1"], 600),
+        (["nrho_venting", "snc"], ["jacobi", "1"], 599),
+        (["formation", "rbfnn_aekf"], ["gauss-seidel", "1"], 600),
+        (["formation", "ekf_j2"], ["gauss-seidel", "0.25"], 600),
+    ] {
+        let twins = ["fmu-truth", "fmu-nav"].map(twin);
+        let Some(three) = estimates(twins, "three.csv", what, how) else {
+            return;
+        };
+        let two = estimates(["fmu-truth", "fmu-nav"].map(fmu), "two.csv", what, how).unwrap();
+        assert_eq!(three.lines().count(), rows + 1, "{what:?}");
+        assert!(three == two, "{what:?} {how:?}");
+    }
+}
+
+#[test]
+fn the_twins_keep_states_and_refuse_what_is_wrong() {
+    let twins = [twin("fmu-truth"), twin("fmu-nav")];
+    if let Some(out) = script("twins", "twin.py", &twins.each_ref().map(|path| text(path))) {
+        assert_eq!(out.lines().count(), 4, "{out}");
+    }
+}
+
+/// A mission inside makes a twin another FMU, too: its token fits, and it runs that mission for as long as it lasts.
+#[test]
+fn fmpy_runs_a_twin_packed_with_a_mission() {
+    let folder = tempfile::tempdir().unwrap();
+    let mission = root().join("missions/fast_approach.toml");
+    trade_harness::pack::pack(root(), folder.path(), Some(&mission), true).unwrap();
+    let alone = |test: &str, fmu: &Path, output: &str| script(test, "alone.py", &[text(fmu), output]);
+    let at = trade_harness::pack::fmi3::folder(folder.path()).join("fmu-truth.fmu");
+    if let Some(three) = alone("packed twin", &at, "truth.r_tc_n") {
+        let two = alone("packed", &folder.path().join("fmu-truth.fmu"), "truth.r_tc_n[1]").unwrap();
+        let first = two.split_whitespace().nth(1).unwrap();
+        assert!(three.starts_with(&format!("truth.r_tc_n [{first}, ")), "{three} {two}");
     }
 }
 
@@ -229,15 +317,5 @@ fn fmpy_simulates_the_system_structure_to_the_same_bits_as_the_harness() {
         let rows = read_csv(&out);
         assert_eq!(rows.len(), samples, "{mission} {step}");
         same_bits(&rows, &read_csv(&reference), names, &format!("{mission} {step}"));
-    }
-}
-
-/// Guidance in Python flies on the filter's estimates, and holds its point.
-#[test]
-fn the_closed_loop_of_the_examples_holds_its_point() {
-    let (truth, nav) = (fmu("fmu-truth"), fmu("fmu-nav"));
-    let fmus = ["--truth", text(&truth), "--nav", text(&nav)];
-    if let Some(out) = script("closed loop", "examples/05_closed_loop/closed_loop.py", &fmus) {
-        assert!(out.contains("after settling never more than"), "{out}");
     }
 }

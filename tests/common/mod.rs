@@ -19,13 +19,22 @@ pub fn root() -> &'static Path {
 
 /// Path of `fmu-truth` or `fmu-nav`, built and packed once for each test binary.
 pub fn fmu(name: &str) -> PathBuf {
+    pack::fmu_path(packed(), name)
+}
+
+/// Path of its FMI 3.0 twin.
+pub fn twin(name: &str) -> PathBuf {
+    pack::fmu_path(&pack::fmi3::folder(packed()), name)
+}
+
+/// Folder of the FMUs.
+fn packed() -> &'static Path {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
-    let folder = FOLDER.get_or_init(|| {
+    FOLDER.get_or_init(|| {
         let folder = pack::default_folder(root());
         pack::pack(root(), &folder, None, true).unwrap();
         folder
-    });
-    pack::fmu_path(folder, name)
+    })
 }
 
 /// A call of the harness's program, built once for each test binary, on FMUs that are packed already.
@@ -57,12 +66,12 @@ pub fn command(arguments: &[&str]) -> Command {
     let mut command = Command::new(program);
     command.args(arguments).current_dir(root());
     let first = arguments.first().copied();
-    // What answers at once has no progress.
-    if !matches!(first, Some("list" | "inspect")) {
+    // What answers at once, or says all that it does, has no progress.
+    if !matches!(first, Some("list" | "inspect" | "check")) {
         command.arg("--quiet");
     }
-    // A merge and a rerun take the FMUs that their study was made with, a report, a list and an inspection none.
-    if !matches!(first, Some("merge" | "report" | "list" | "rerun" | "inspect")) {
+    // A merge and a rerun take the FMUs that their study was made with, a report, a list, an inspection and a check none.
+    if !matches!(first, Some("merge" | "report" | "list" | "rerun" | "inspect" | "check")) {
         command.arg("--no-build");
     }
     command

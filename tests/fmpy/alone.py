@@ -17,7 +17,7 @@ def main(path, outputs):
         print(f"{path}: {len(result)} rows, expected {rows}")
         return 1
     for name in outputs:
-        print(f"{name} {result[name][-1].item()!r}")
+        print(f"{name} {result[name][-1].tolist()!r}")
     return 0
 
 

@@ -1,4 +1,4 @@
-"""Couple a truth and a navigation FMU by equal names, with FMPy and nothing else.
+"""Couple a truth and a navigation FMU by equal names, with FMPy and nothing else: both of FMI 2.0, or both of FMI 3.0.
 
     couple.py --truth fmu-truth.fmu --nav fmu-nav.fmu --filter milton --run 3 --stop 600 --out estimates.csv
 
@@ -8,29 +8,31 @@ they read back exactly.
 
 import argparse
 import csv
+import math
 import shutil
 
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi3 import FMU3Slave
 
-WRITTEN = ["est.time", "est.count"] + [
-    f"{name}[{i}]"
-    for name in (
-        *("est.r_tc_n", "est.v_tc_n", "est.a_t_n", "est.r_c_n", "est.v_c_n", "est.b_c_bc"),
-        *("est.rho_lvlh", "est.rho_dot_lvlh", "est.d_lvlh"),
-    )
-    for i in (1, 2, 3)
+SCALARS = ["est.time", "est.count"]
+VECTORS = [
+    *("est.r_tc_n", "est.v_tc_n", "est.a_t_n", "est.r_c_n", "est.v_c_n", "est.b_c_bc"),
+    *("est.rho_lvlh", "est.rho_dot_lvlh", "est.d_lvlh"),
 ]
 
 
 class Slave:
-    """An FMU with its variables by name."""
+    """An FMU of FMI 2.0 with its variables by name, each a scalar."""
+
+    kind = FMU2Slave
+    integer = "Integer"
 
     def __init__(self, path, name):
         self.description = read_model_description(path)
         self.variables = {v.name: v for v in self.description.modelVariables}
         self.folder = extract(path)
-        self.fmu = FMU2Slave(
+        self.fmu = self.kind(
             guid=self.description.guid,
             unzipDirectory=self.folder,
             modelIdentifier=self.description.coSimulation.modelIdentifier,
@@ -55,7 +57,7 @@ class Slave:
             self.set(name, text == "true")
         elif variable.type == "String":
             self.set(name, text)
-        elif variable.type == "Integer":
+        elif variable.type == self.integer:
             self.set(name, int(text))
         else:
             self.set(name, float(text))
@@ -63,10 +65,51 @@ class Slave:
     def get(self, name):
         return self._accessor("get", name)([self.variables[name].valueReference])[0]
 
+    def get_vector(self, name):
+        return [self.get(f"{name}[{i}]") for i in (1, 2, 3)]
+
+    def initialise(self):
+        self.fmu.setupExperiment(startTime=0.0)
+        self.fmu.enterInitializationMode()
+        self.fmu.exitInitializationMode()
+
     def close(self):
         self.fmu.terminate()
         self.fmu.freeInstance()
         shutil.rmtree(self.folder, ignore_errors=True)
+
+
+class Slave3(Slave):
+    """An FMU of FMI 3.0 with its variables by name, of which a vector or matrix is one, handed over whole."""
+
+    kind = FMU3Slave
+    integer = "Int32"
+
+    def _accessor(self, verb, name):
+        kind = self.variables[name].type
+        return getattr(self.fmu, verb + ("Int64" if kind == "Enumeration" else kind))
+
+    def set(self, name, value):
+        values = value if isinstance(value, list) else [value]
+        self._accessor("set", name)([self.variables[name].valueReference], values)
+
+    def get(self, name):
+        variable = self.variables[name]
+        values = self._accessor("get", name)([variable.valueReference], nValues=math.prod(variable.shape))
+        return values if variable.shape else values[0]
+
+    def get_vector(self, name):
+        return self.get(name)
+
+    def initialise(self):
+        self.fmu.enterInitializationMode(startTime=0.0)
+        self.fmu.exitInitializationMode()
+
+
+def slave(path, name):
+    """An FMU of either version."""
+    version = read_model_description(path).fmiVersion
+    return (Slave3 if version.startswith("3.") else Slave)(path, name)
 
 
 def main():
@@ -85,14 +128,14 @@ def main():
     parser.add_argument("--set", action="append", default=[], metavar="fmu-nav.VARIABLE=VALUE")
     arguments = parser.parse_args()
 
-    truth, nav = Slave(arguments.truth, "truth"), Slave(arguments.nav, "nav")
-    for slave in (truth, nav):
+    truth, nav = slave(arguments.truth, "truth"), slave(arguments.nav, "nav")
+    for fmu in (truth, nav):
         if arguments.mission:
-            slave.set("mission_file", arguments.mission)
+            fmu.set("mission_file", arguments.mission)
         else:
-            slave.set_text("scenario", arguments.scenario)
-        slave.set("study_seed", arguments.seed)
-        slave.set("run", arguments.run)
+            fmu.set_text("scenario", arguments.scenario)
+        fmu.set("study_seed", arguments.seed)
+        fmu.set("run", arguments.run)
     nav.set_text("filter", arguments.filter)
     for assignment in arguments.set:
         target, value = assignment.split("=", 1)
@@ -112,14 +155,12 @@ def main():
         for name in wires:
             nav.set(name, truth.get(name))
 
-    for slave in (truth, nav):
-        slave.fmu.setupExperiment(startTime=0.0)
-        slave.fmu.enterInitializationMode()
-        slave.fmu.exitInitializationMode()
+    for fmu in (truth, nav):
+        fmu.initialise()
 
     with open(arguments.out, "w", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(WRITTEN)
+        writer.writerow(SCALARS + [f"{name}[{i}]" for name in VECTORS for i in (1, 2, 3)])
         used = 0
         for k in range(round(arguments.stop / arguments.step)):
             now = k * arguments.step
@@ -133,7 +174,8 @@ def main():
             count = nav.get("est.count")
             if count > used:
                 used = count
-                writer.writerow([repr(nav.get(name)) for name in WRITTEN])
+                values = [nav.get(name) for name in SCALARS] + [v for name in VECTORS for v in nav.get_vector(name)]
+                writer.writerow([repr(value) for value in values])
     truth.close()
     nav.close()
 

@@ -30,6 +30,9 @@ pub enum HarnessError {
         /// What is in the way, and what to do.
         problem: String,
     },
+    /// An FMU that cannot be checked.
+    #[error(transparent)]
+    Check(#[from] fmi2_check::CheckError),
     /// An orbit, a field of gravity or a date that makes no sense.
     #[error(transparent)]
     Astro(#[from] astro::AstroError),
@@ -340,6 +343,18 @@ pub enum HarnessError {
     Build {
         /// How cargo ended.
         status: std::process::ExitStatus,
+    },
+    /// What is not here that building for other platforms takes.
+    #[error("cannot build for every platform that was asked for; deploy/release.md tells how. {missing}")]
+    Platforms {
+        /// What, how to get it, and for which platform.
+        missing: String,
+    },
+    /// Libraries of two processors that cannot be joined in one file.
+    #[error("cannot join the libraries of macOS in one file: {source}")]
+    Universal {
+        /// Why.
+        source: fat_macho::Error,
     },
     /// Cargo built no library of that name.
     #[error("cargo named no shared library for '{target}'; is its crate-type still cdylib?")]

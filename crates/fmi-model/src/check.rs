@@ -61,13 +61,7 @@ impl Checked for i32 {
                 bounds: bounds.to_string(),
             }),
             Typed::Enumeration { declared, .. } if declared.item(*value).is_none() => {
-                let items = (1..).zip(&declared.items);
-                let items = items.map(|(value, item): (usize, _)| format!("{value} {}", item.name));
-                Err(InstanceError::NoSuchItem {
-                    name: name(),
-                    value: *value,
-                    items: items.collect::<Vec<_>>().join(", "),
-                })
+                Err(InstanceError::no_such_item(entry, declared, i64::from(*value)))
             }
             _ => Ok(()),
         }

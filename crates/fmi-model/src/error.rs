@@ -2,7 +2,7 @@
 
 use crate::model::ModelError;
 use crate::phase::Phase;
-use crate::variable::Causality;
+use crate::variable::{Causality, Entry, EnumerationType};
 
 /// Why an instance did not do what it was asked for. All but [`Model`](Self::Model) leave it as it was.
 #[derive(Debug, thiserror::Error)]
@@ -60,7 +60,7 @@ pub enum InstanceError {
         /// The variable.
         name: String,
         /// The number.
-        value: i32,
+        value: i64,
         /// Numbers and names that exist.
         items: String,
     },
@@ -134,7 +134,23 @@ pub enum InstanceError {
         /// So many.
         count: usize,
     },
+    /// The model does not take such a step.
+    #[error("the model does not take this step")]
+    StepRefused(#[source] ModelError),
     /// The model could not initialise or step; the instance is in [`Phase::Failed`] now.
     #[error("the model failed, and only a reset or an earlier state helps")]
     Model(#[source] ModelError),
+}
+
+impl InstanceError {
+    /// [`NoSuchItem`](Self::NoSuchItem) of an entry of this enumeration.
+    pub fn no_such_item<M>(entry: Entry<'_, M>, declared: &EnumerationType, value: i64) -> Self {
+        let items = (1..).zip(&declared.items);
+        let items = items.map(|(value, item): (usize, _)| format!("{value} {}", item.name));
+        Self::NoSuchItem {
+            name: entry.name().into_owned(),
+            value,
+            items: items.collect::<Vec<_>>().join(", "),
+        }
+    }
 }

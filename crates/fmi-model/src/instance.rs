@@ -154,14 +154,27 @@ impl<M: Model> Instance<M> {
         &mut self,
         references: &[u32],
         log: &mut Log<'_>,
+        put: impl FnMut(usize, T),
+    ) -> Result<(), InstanceError> {
+        self.get_entries(references.iter().copied(), log, put)
+    }
+
+    /// [`get`](Self::get) for entries that do not stand in a list, such as those of whole rows.
+    ///
+    /// # Errors
+    /// As for [`get`](Self::get).
+    pub fn get_entries<T: Scalar>(
+        &mut self,
+        entries: impl Iterator<Item = u32> + Clone,
+        log: &mut Log<'_>,
         mut put: impl FnMut(usize, T),
     ) -> Result<(), InstanceError> {
-        for reference in references {
-            entry::<M, T>(*reference)?;
+        for number in entries.clone() {
+            entry::<M, T>(number)?;
         }
         self.refresh(log)?;
-        for (place, reference) in references.iter().enumerate() {
-            let (entry, access) = entry::<M, T>(*reference)?;
+        for (place, number) in entries.enumerate() {
+            let (entry, access) = entry::<M, T>(number)?;
             put(place, access.read(&self.state.model, entry.element));
         }
         Ok(())
@@ -173,16 +186,30 @@ impl<M: Model> Instance<M> {
     /// [`InstanceError::UnknownReference`], [`InstanceError::WrongType`], [`InstanceError::NotSettable`], or why the entry
     /// does not take the value.
     pub fn set<T: Checked>(&mut self, references: &[u32], value: impl Fn(usize) -> T) -> Result<(), InstanceError> {
-        for (place, reference) in references.iter().enumerate() {
-            let (entry, _) = entry::<M, T>(*reference)?;
+        self.set_entries(references.iter().copied(), value)
+    }
+
+    /// [`set`](Self::set) for entries that do not stand in a list, such as those of whole rows.
+    ///
+    /// # Errors
+    /// As for [`set`](Self::set).
+    pub fn set_entries<T: Checked>(
+        &mut self,
+        entries: impl Iterator<Item = u32> + Clone,
+        value: impl Fn(usize) -> T,
+    ) -> Result<(), InstanceError> {
+        let mut any = false;
+        for (place, number) in entries.clone().enumerate() {
+            let (entry, _) = entry::<M, T>(number)?;
             check_settable(entry, self.state.phase)?;
             T::check(&value(place), entry)?;
+            any = true;
         }
-        for (place, reference) in references.iter().enumerate() {
-            let (entry, access) = entry::<M, T>(*reference)?;
+        for (place, number) in entries.enumerate() {
+            let (entry, access) = entry::<M, T>(number)?;
             access.write(&mut self.state.model, entry.element, value(place));
         }
-        self.state.stale |= self.state.phase == Phase::Initialization && !references.is_empty();
+        self.state.stale |= self.state.phase == Phase::Initialization && any;
         Ok(())
     }
 
@@ -191,8 +218,8 @@ impl<M: Model> Instance<M> {
     /// Advances from `t` to `t + h`, s.
     ///
     /// # Errors
-    /// [`InstanceError::NotFinite`], [`InstanceError::BadStep`], [`InstanceError::TimeMismatch`] or
-    /// [`InstanceError::Model`].
+    /// [`InstanceError::NotFinite`], [`InstanceError::BadStep`], [`InstanceError::TimeMismatch`],
+    /// [`InstanceError::StepRefused`] or [`InstanceError::Model`].
     pub fn do_step(&mut self, t: f64, h: f64, log: &mut Log<'_>) -> Result<(), InstanceError> {
         finite("communication point", t)?;
         finite("communication step size", h)?;
@@ -205,6 +232,7 @@ impl<M: Model> Instance<M> {
             return Err(InstanceError::TimeMismatch { t, expected });
         }
         let state = &mut self.state;
+        state.model.check_step(t, h).map_err(InstanceError::StepRefused)?;
         if let Err(error) = state.model.do_step(t, h, log) {
             state.phase = Phase::Failed;
             return Err(InstanceError::Model(error));

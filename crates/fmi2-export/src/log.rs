@@ -4,44 +4,36 @@
 use std::ffi::{CStr, CString};
 use std::fmt;
 
-use fmi_model::{Category, Listener, Wanted};
-use fmi2_abi::{CallbackLogger, Fmi2CallbackFunctions, Fmi2ComponentEnvironment, Fmi2Status};
-
-/// The category of messages that explain `status`.
-fn category_of(status: Fmi2Status) -> Category {
-    match status {
-        Fmi2Status::Ok | Fmi2Status::Pending => Category::Events,
-        Fmi2Status::Warning => Category::StatusWarning,
-        Fmi2Status::Discard => Category::StatusDiscard,
-        Fmi2Status::Error => Category::StatusError,
-        Fmi2Status::Fatal => Category::StatusFatal,
-    }
-}
+use fmi_export::Status;
+use fmi_model::Category;
+use fmi2_abi::{CallbackLogger, Fmi2CallbackFunctions, Fmi2ComponentEnvironment};
 
 /// The host's end of the log: its callback, and the name under which the instance speaks.
 #[derive(Debug, Clone)]
-pub(crate) struct Sink {
+pub struct Sink {
     callback: Option<CallbackLogger>,
     environment: Fmi2ComponentEnvironment,
     instance_name: CString,
 }
 
 impl Sink {
-    /// A sink for messages of `instance_name`; keeps a copy of what it needs from `callbacks`.
-    pub(crate) fn new(callbacks: &Fmi2CallbackFunctions, instance_name: &CStr) -> Self {
+    /// A sink for messages of `instance_name`; keeps a copy of what it needs from `callbacks`. Without callbacks nobody hears
+    /// anything.
+    pub(crate) fn new(callbacks: Option<&Fmi2CallbackFunctions>, instance_name: &CStr) -> Self {
         Self {
-            callback: callbacks.logger,
-            environment: callbacks.component_environment,
+            callback: callbacks.and_then(|callbacks| callbacks.logger),
+            environment: callbacks.map_or(std::ptr::null_mut(), |callbacks| callbacks.component_environment),
             instance_name: instance_name.to_owned(),
         }
     }
+}
 
-    /// Sends a message that explains `status`.
-    pub(crate) fn explain(&self, status: Fmi2Status, message: &dyn fmt::Display) {
-        self.send(status, category_of(status), message);
+impl fmi_export::Sink for Sink {
+    fn has_listener(&self) -> bool {
+        self.callback.is_some()
     }
 
-    fn send(&self, status: Fmi2Status, category: Category, message: &dyn fmt::Display) {
+    fn send(&self, status: Status, category: Category, message: &dyn fmt::Display) {
         let Some(callback) = self.callback else {
             return;
         };
@@ -61,31 +53,18 @@ impl Sink {
     }
 }
 
-/// A finished message as a `printf` format that prints itself: `%` is doubled, a NUL becomes U+FFFD.
+/// A finished message as a `printf` format that prints itself: `%` is doubled, and so is `#`, which begins the
+/// name of a variable; a NUL becomes U+FFFD.
 fn for_printf(message: &str) -> CString {
-    CString::new(message.replace('%', "%%").replace('\0', "\u{fffd}")).unwrap_or_default()
+    CString::new(message.replace('%', "%%").replace('#', "##").replace('\0', "\u{fffd}")).unwrap_or_default()
 }
 
-/// The log of one instance: where messages go, and which debug messages the host wants.
-#[derive(Debug, Clone)]
-pub(crate) struct Logger {
-    pub(crate) sink: Sink,
-    pub(crate) wanted: Wanted,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl Listener for Logger {
-    fn wants(&self, category: Category) -> bool {
-        self.wanted.wants(category)
-    }
-
-    fn hear(&self, category: Category, message: &dyn fmt::Display) {
-        let status = match category {
-            Category::StatusWarning => Fmi2Status::Warning,
-            Category::StatusDiscard => Fmi2Status::Discard,
-            Category::StatusError => Fmi2Status::Error,
-            Category::StatusFatal => Fmi2Status::Fatal,
-            Category::Events | Category::All => Fmi2Status::Ok,
-        };
-        self.sink.send(status, category, message);
+    #[test]
+    fn a_finished_message_prints_itself() {
+        assert_eq!(&*for_printf("50 % of #3\0"), c"50 %% of ##3\u{fffd}");
     }
 }

@@ -15,7 +15,7 @@ mod tree;
 mod write;
 
 pub use error::SspError;
-pub use flat::{Flat, FlatComponent, FlatConnection, FlatPort, flatten};
+pub use flat::{Flat, FlatComponent, FlatConnection, FlatParameter, FlatPort, flatten};
 pub use model::{
     BaseUnit, Binding, Component, Connection, Connector, DataType, Element, End, Experiment, FMU, Kind, Linear,
     MappingEntry, Parameter, ParameterSet, System, SystemStructure, Unit, Value,

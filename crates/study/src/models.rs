@@ -17,7 +17,7 @@ pub const TRUTH: &str = "fmu-truth";
 pub const NAV: &str = "fmu-nav";
 
 /// How the outputs of a filter begin that a driver may read.
-const OF_FILTERS: &str = "est.";
+const OF_FILTERS: [&str; 2] = ["est.", "pred."];
 /// How the outputs of the truth begin that only a bound may read.
 pub(crate) const OF_TRUTH: &str = "truth.";
 
@@ -72,7 +72,7 @@ impl Model {
 
     /// Whether it has an input that a filter feeds.
     pub(crate) fn reads_a_filter(&self) -> bool {
-        self.has_input(OF_FILTERS)
+        OF_FILTERS.iter().any(|begin| self.has_input(begin))
     }
 
     /// Whether it has an input that no filter is fed.

@@ -10,7 +10,6 @@ use std::path::Path;
 
 use fmi2_import::{BaseType, Causality, Fmu, ModelDescription, Variable};
 use interface::annotation::Filters;
-use interface::mission::EMBEDDED;
 use ssp::{
     Binding, Component, Connection, Connector, DataType, End, Experiment, Kind, Package, Parameter, ParameterSet,
     SystemStructure, Unit, Value,

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use fmi2_import::{BaseType, Causality, ModelDescription, Variable, suggest};
-use interface::ports::port;
+use interface::ports::{self, Port, port};
 use ssp::{Connector, DataType, Flat, FlatConnection, Kind, Linear};
 use study::{Mapping, did_you_mean};
 
@@ -55,9 +55,19 @@ impl Part<'_> {
     }
 }
 
-/// Whether a name, of an element of a vector or not, is one that truth and filters share.
+/// The port of a name, of an element of a vector or not.
+fn port_of(name: &str) -> Option<&'static Port> {
+    port(name.split('[').next().unwrap_or(name))
+}
+
+/// Whether a name is one that truth and filters share.
 fn is_shared(name: &str) -> bool {
-    port(name.split('[').next().unwrap_or(name)).is_some()
+    port_of(name).is_some()
+}
+
+/// Whether a name is that of a command, which a study tells a filter that asks for it.
+fn is_announced(name: &str) -> bool {
+    port_of(name).is_some_and(|port| port.role == ports::Role::Announced)
 }
 
 /// The parts of a study, with their names for what crosses between them.
@@ -123,7 +133,10 @@ pub(super) fn parts<'a>(
         );
         return Err(("the system".to_owned(), text));
     }
-    for connection in &flat.connections {
+    // What a filter is told of a command goes by the name that the world has for it.
+    let told = |c: &&FlatConnection| (parts[c.from.0].role, parts[c.to.0].role) == (Role::Driver, Role::Filter);
+    let (told, others): (Vec<_>, Vec<_>) = flat.connections.iter().partition(told);
+    for connection in others.into_iter().chain(told) {
         connect(&mut parts, connection)?;
     }
     for connection in &flat.connections {
@@ -214,30 +227,39 @@ fn fits(part: &Part<'_>, connector: &Connector) -> Result<(), Problem> {
 /// Gives both ends of a connection one name, if a study has such a connection at all.
 fn connect(parts: &mut [Part<'_>], connection: &FlatConnection) -> Result<(), Problem> {
     let ((from, output), (to, input)) = (&connection.from, &connection.to);
-    let (Some(giver), Some(taker)) = (parts.get(*from), parts.get(*to)) else {
-        return Ok(());
-    };
+    let (giver, taker) = (&parts[*from], &parts[*to]);
     let label = format!(
         "connection from {}.{output} to {}.{input}",
         giver.element, taker.element
     );
+    let (own, theirs) = (giver.contract(output), taker.contract(input));
+    let shared = if is_shared(theirs) && !is_shared(own) {
+        theirs
+    } else {
+        own
+    };
+    let shared = shared.to_owned();
     let why = match (giver.role, taker.role) {
         (Role::World, _) | (Role::Filter, Role::Driver) | (Role::Driver, Role::World) => None,
+        (Role::Driver, Role::Filter) if is_announced(&shared) => None,
         (Role::Filter, Role::World) => {
-            Some("in a study a filter acts on the world through a driver alone; put one between them")
+            Some("in a study a filter acts on the world through a driver alone; put one between them".to_owned())
         }
-        (Role::Driver, Role::Filter) => Some("in a study the world alone feeds a filter; take the connection away"),
-        (Role::Filter, Role::Filter) => Some("in a study no filter feeds another; take the connection away"),
-        (Role::Driver, Role::Driver) => Some("in a study no driver feeds another; put them into one FMU"),
+        (Role::Driver, Role::Filter) => {
+            let commands: Vec<&str> = ports::of(ports::Role::Announced).map(|port| port.name).collect();
+            Some(format!(
+                "in a study a driver tells a filter no more than the commands that the world has from it, {}; take the connection away",
+                commands.join(", ")
+            ))
+        }
+        (Role::Filter, Role::Filter) => Some("in a study no filter feeds another; take the connection away".to_owned()),
+        (Role::Driver, Role::Driver) => {
+            Some("in a study no driver feeds another; put them into one FMU".to_owned())
+        }
     };
     if let Some(why) = why {
-        return Err((label, why.to_owned()));
+        return Err((label, why));
     }
-    let mut names = [giver.contract(output), taker.contract(input)].into_iter();
-    let shared = names
-        .find(|name| is_shared(name))
-        .unwrap_or(giver.contract(output))
-        .to_owned();
     rename(&mut parts[*from], output, &shared)?;
     rename(&mut parts[*to], input, &shared)
 }
@@ -285,26 +307,22 @@ fn complete(flat: &Flat, parts: &[Part<'_>]) -> Result<(), Problem> {
         .iter()
         .map(|c| ((c.from.0, c.from.1.as_str()), (c.to.0, c.to.1.as_str())))
         .collect();
-    let missing = |from: usize, to: usize| {
-        let (giver, taker) = (&parts[from], &parts[to]);
-        taker.of(Causality::Input).find_map(|input| {
-            let contract = taker.contract(&input.name);
-            // A bound alone is fed them, by the study.
-            if taker.role == Role::Filter && contract.starts_with("truth.") {
-                return None;
-            }
-            let output = giver.named(Causality::Output, contract)?;
-            (!made.contains(&((from, output), (to, input.name.as_str()))))
-                .then(|| (output.to_owned(), input.name.clone()))
-        })
+    let connects = |giver: Role, taker: Role, name: &str| match (giver, taker) {
+        // A bound alone is fed the truth, by the study.
+        (Role::World, Role::Filter) => !name.starts_with("truth."),
+        (Role::World, Role::Driver) | (Role::Filter, Role::Driver) | (Role::Driver, Role::World) => true,
+        (Role::Driver, Role::Filter) => is_announced(name),
+        _ => false,
     };
     for (to, taker) in parts.iter().enumerate() {
         for (from, giver) in parts.iter().enumerate() {
-            let wanted = matches!(
-                (giver.role, taker.role),
-                (Role::World, Role::Filter | Role::Driver) | (Role::Filter, Role::Driver) | (Role::Driver, Role::World)
-            );
-            if let Some((output, input)) = missing(from, to).filter(|_| wanted) {
+            let missing = taker.of(Causality::Input).find_map(|input| {
+                let name = taker.contract(&input.name);
+                let output = giver.named(Causality::Output, name)?;
+                let made = made.contains(&((from, output), (to, input.name.as_str())));
+                (!made && connects(giver.role, taker.role, name)).then_some((output, &input.name))
+            });
+            if let Some((output, input)) = missing {
                 let text = format!(
                     "nothing feeds it, and a study would, from {}.{output}; connect them, or give one of them another name",
                     giver.element

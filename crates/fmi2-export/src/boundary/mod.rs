@@ -14,10 +14,7 @@
 )]
 #![allow(missing_docs, reason = "each function is that of the standard with the same name")]
 
-mod call;
-mod handle;
 mod lifecycle;
-mod memory;
 mod model_exchange;
 mod states;
 mod steps;

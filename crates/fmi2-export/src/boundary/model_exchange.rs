@@ -1,21 +1,20 @@
 //! The functions of model exchange: there for hosts that resolve every symbol, and each answered with the reason why not.
 
+use fmi_export::{CallError, Exported, Function, call};
 use fmi2_abi::{Fmi2Boolean, Fmi2Component, Fmi2EventInfo, Fmi2Real, RawStatus};
 
-use super::call::call;
-use crate::error::CallError;
-use crate::identity::Exported;
-use crate::order::{self, Function};
+use crate::order;
+use crate::version::Fmi2;
 
-unsafe fn refuse<M: Exported>(component: Fmi2Component, function: &Function) -> RawStatus {
+unsafe fn refuse<M: Exported<Fmi2>>(component: Fmi2Component, function: &Function) -> RawStatus {
     // SAFETY: see the module above.
-    unsafe { call::<M>(component, function, |_| Err(CallError::CoSimulationOnly)) }
+    unsafe { call::<Fmi2, M>(component, function, |_| Err(CallError::CoSimulationOnly)) }
 }
 
 macro_rules! refused {
     ($($name:ident($($argument:ty),*) as $function:ident;)*) => {
         $(
-            pub unsafe fn $name<M: Exported>(component: Fmi2Component, $(_: $argument),*) -> RawStatus {
+            pub unsafe fn $name<M: Exported<Fmi2>>(component: Fmi2Component, $(_: $argument),*) -> RawStatus {
                 // SAFETY: see the module above; the other arguments are not looked at.
                 unsafe { refuse::<M>(component, &order::$function) }
             }

@@ -2,19 +2,17 @@
 
 use std::ffi::CString;
 
+use fmi_export::{CallError, Exported, Function, call, memory};
 use fmi_model::{Checked, Scalar};
 use fmi2_abi::{
     Fmi2Boolean, Fmi2Component, Fmi2Integer, Fmi2Real, Fmi2String, Fmi2ValueReference, RawStatus, boolean, truth,
 };
 
-use super::call::call;
-use super::memory;
-use crate::error::CallError;
-use crate::identity::Exported;
-use crate::order::{self, Function};
+use crate::order;
+use crate::version::Fmi2;
 
 /// Reads variables whose values are `T` in Rust and `C` in C.
-unsafe fn get<M: Exported, T: Scalar, C>(
+unsafe fn get<M: Exported<Fmi2>, T: Scalar, C>(
     component: Fmi2Component,
     function: &Function,
     references: *const Fmi2ValueReference,
@@ -24,10 +22,10 @@ unsafe fn get<M: Exported, T: Scalar, C>(
 ) -> RawStatus {
     // SAFETY: `references` and `values` have `count` elements each; see the module.
     unsafe {
-        call::<M>(component, function, |instance| {
+        call::<Fmi2, M>(component, function, |instance| {
             let references = memory::array("vr", references, count)?;
             let values = memory::room("value", values, count)?;
-            instance.get(references, |place, value| {
+            instance.get(references.iter().copied(), |place, value| {
                 values[place].write(to_c(value));
             })
         })
@@ -35,7 +33,7 @@ unsafe fn get<M: Exported, T: Scalar, C>(
 }
 
 /// Sets variables whose values are `T` in Rust and `C` in C.
-unsafe fn set<M: Exported, T: Checked, C: Copy>(
+unsafe fn set<M: Exported<Fmi2>, T: Checked, C: Copy>(
     component: Fmi2Component,
     function: &Function,
     references: *const Fmi2ValueReference,
@@ -45,15 +43,15 @@ unsafe fn set<M: Exported, T: Checked, C: Copy>(
 ) -> RawStatus {
     // SAFETY: `references` and `values` have `count` elements each; see the module.
     unsafe {
-        call::<M>(component, function, |instance| {
+        call::<Fmi2, M>(component, function, |instance| {
             let references = memory::array("vr", references, count)?;
             let values = memory::array("value", values, count)?;
-            instance.set(references, |place| from_c(values[place]))
+            instance.set(references.iter().copied(), |place| from_c(values[place]))
         })
     }
 }
 
-pub unsafe fn get_real<M: Exported>(
+pub unsafe fn get_real<M: Exported<Fmi2>>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -64,7 +62,7 @@ pub unsafe fn get_real<M: Exported>(
 }
 
 /// Enumerations are read here, too.
-pub unsafe fn get_integer<M: Exported>(
+pub unsafe fn get_integer<M: Exported<Fmi2>>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -74,7 +72,7 @@ pub unsafe fn get_integer<M: Exported>(
     unsafe { get::<M, i32, _>(component, &order::GET_INTEGER, references, count, values, |value| value) }
 }
 
-pub unsafe fn get_boolean<M: Exported>(
+pub unsafe fn get_boolean<M: Exported<Fmi2>>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -85,7 +83,7 @@ pub unsafe fn get_boolean<M: Exported>(
 }
 
 /// The strings belong to the instance and hold until the next `fmi2GetString` on it.
-pub unsafe fn get_string<M: Exported>(
+pub unsafe fn get_string<M: Exported<Fmi2>>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -93,17 +91,17 @@ pub unsafe fn get_string<M: Exported>(
 ) -> RawStatus {
     // SAFETY: `references` and `values` have `count` elements each; see the module.
     unsafe {
-        call::<M>(component, &order::GET_STRING, |instance| {
+        call::<Fmi2, M>(component, &order::GET_STRING, |instance| {
             let references = memory::array("vr", references, count)?;
             let values = memory::room("value", values, count)?;
-            instance.get_texts(references, |place, text: &CString| {
+            instance.get_texts(references.iter().copied(), |place, text: &CString| {
                 values[place].write(text.as_ptr());
             })
         })
     }
 }
 
-pub unsafe fn set_real<M: Exported>(
+pub unsafe fn set_real<M: Exported<Fmi2>>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -114,7 +112,7 @@ pub unsafe fn set_real<M: Exported>(
 }
 
 /// Enumerations are set here, too.
-pub unsafe fn set_integer<M: Exported>(
+pub unsafe fn set_integer<M: Exported<Fmi2>>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -125,7 +123,7 @@ pub unsafe fn set_integer<M: Exported>(
 }
 
 /// Any value but 0 is true, as in C.
-pub unsafe fn set_boolean<M: Exported>(
+pub unsafe fn set_boolean<M: Exported<Fmi2>>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -135,7 +133,7 @@ pub unsafe fn set_boolean<M: Exported>(
     unsafe { set::<M, bool, _>(component, &order::SET_BOOLEAN, references, count, values, truth) }
 }
 
-pub unsafe fn set_string<M: Exported>(
+pub unsafe fn set_string<M: Exported<Fmi2>>(
     component: Fmi2Component,
     references: *const Fmi2ValueReference,
     count: usize,
@@ -143,13 +141,13 @@ pub unsafe fn set_string<M: Exported>(
 ) -> RawStatus {
     // SAFETY: `references` and `values` have `count` elements each, the latter strings; see the module.
     unsafe {
-        call::<M>(component, &order::SET_STRING, |instance| {
+        call::<Fmi2, M>(component, &order::SET_STRING, |instance| {
             let references = memory::array("vr", references, count)?;
             let values = memory::array("value", values, count)?
                 .iter()
                 .map(|value| memory::text("value", *value).map(str::to_owned))
                 .collect::<Result<Vec<String>, CallError>>()?;
-            instance.set(references, |place| values[place].clone())
+            instance.set(references.iter().copied(), |place| values[place].clone())
         })
     }
 }

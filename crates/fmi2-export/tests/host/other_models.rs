@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 
 use fmi2_export::abi::Fmi2Status;
 use fmi2_export::{
-    DefinitionError, Experiment, Exported, GoldenError, GuidCell, Log, Model, ModelError, ModelInfo, Table,
+    DefinitionError, Experiment, Exported, Fmi2, GoldenError, GuidCell, Log, Model, ModelError, ModelInfo, Table,
     TableBuilder, boundary, golden_check, guid, render,
 };
 use serde::{Deserialize, Serialize};
@@ -42,7 +42,7 @@ impl<const KIND: u8> Other<KIND> {
 
 macro_rules! model {
     ($kind:ident) => {
-        impl Exported for Other<$kind> {
+        impl Exported<Fmi2> for Other<$kind> {
             fn guid_cell() -> &'static GuidCell {
                 static CELL: GuidCell = GuidCell::new();
                 &CELL
@@ -88,12 +88,12 @@ model!(PANICS_WHEN_MADE);
 model!(FORGETFUL);
 model!(BUILT);
 
-fn instantiate<M: Exported>(guid: &str, journal: &Journal) -> (*mut c_void, Vec<Message>) {
+fn instantiate<M: Exported<Fmi2>>(guid: &str, journal: &Journal) -> (*mut c_void, Vec<Message>) {
     let functions = callbacks(journal);
     let guid = CString::new(guid).unwrap();
     let (name, guid) = (c"other".as_ptr(), guid.as_ptr());
     // SAFETY: all pointers are to live Rust values.
-    let component = unsafe { boundary::instantiate::<M>(name, 1, guid, ptr::null(), &functions, 0, 0) };
+    let component = unsafe { boundary::instantiate::<M>(name, 1, guid, ptr::null(), &functions, 0, 1) };
     let messages = journal.messages.lock().unwrap().clone();
     (component, messages)
 }

@@ -1,0 +1,145 @@
+//! Creation, logging and end of an instance.
+#![allow(unsafe_code, reason = "raw pointers come in, references and boxes go on")]
+
+use std::ffi::{c_char, c_int, c_void};
+use std::path::PathBuf;
+use std::ptr;
+
+use fmi_model::{braced, guarded};
+
+use crate::call::call;
+use crate::error::CallError;
+use crate::handle::Handle;
+use crate::identity::{Exported, own_guid};
+use crate::instance::Instance;
+use crate::log::Logger;
+use crate::memory;
+use crate::order::Function;
+use crate::status::Status;
+use crate::version::Version;
+
+/// What every host says when it asks for an instance.
+#[derive(Debug, Clone, Copy)]
+pub struct Wish {
+    /// Name of the instance.
+    pub name: *const c_char,
+    /// The identifier in the description, and the name of the argument that it came in.
+    pub identifier: (&'static str, *const c_char),
+    /// Whether messages are wanted.
+    pub logging_on: bool,
+}
+
+/// Makes an instance; null, and the reason to `sink` if logging is on, for an empty name, a wrong identifier, a faulty definition, or what `resources`
+/// finds.
+///
+/// * `resources`: looks at what else the standard's function was given, and answers with the folder of the FMU's resources, if there
+///   is one.
+///
+/// # Safety
+/// The texts of the wish are null or NUL-terminated, and nobody writes to them during the call.
+pub unsafe fn create<V: Version, M: Exported<V>>(
+    function: &Function,
+    sink: &V::Sink,
+    wish: Wish,
+    resources: impl FnOnce() -> Result<Option<PathBuf>, CallError>,
+) -> *mut c_void {
+    let logger = Logger::new(sink.clone(), wish.logging_on);
+    let created = guarded(|| {
+        let (argument, identifier) = wish.identifier;
+        // SAFETY: both are texts, as the caller vouches.
+        let (name, given) = unsafe {
+            (
+                memory::text("instanceName", wish.name),
+                memory::text(argument, identifier),
+            )
+        };
+        let made = name
+            .and_then(|name| {
+                if name.is_empty() {
+                    Err(CallError::EmptyName)
+                } else {
+                    Ok(())
+                }
+            })
+            .and_then(|()| resources())
+            .and_then(|resources| handle::<V, M>(given?, resources, &logger));
+        made.map_err(|error| error.chain())
+    });
+    let (status, reason) = match created {
+        Ok(Ok(handle)) => return Box::into_raw(handle).cast(),
+        Ok(Err(reason)) => (Status::Error, reason),
+        Err(panic) => (Status::Fatal, panic),
+    };
+    let message = format!("{}: {reason}", function.name);
+    logger.explain(status, &message);
+    ptr::null_mut()
+}
+
+fn handle<V: Version, M: Exported<V>>(
+    given: &str,
+    resources: Option<PathBuf>,
+    logger: &Logger<V::Sink>,
+) -> Result<Box<Handle<V, M>>, CallError> {
+    let guid = own_guid::<V, M>()?;
+    let own = braced(guid);
+    // What an FMU was packed with may make it another.
+    let own = resources
+        .as_deref()
+        .and_then(|folder| M::identifier_with(&own, folder))
+        .unwrap_or(own);
+    if given != own {
+        return Err(CallError::WrongIdentifier {
+            kind: V::IDENTIFIER_NAME,
+            given: given.to_owned(),
+            own,
+        });
+    }
+    let instance = Instance::new(logger.clone(), resources);
+    Ok(Box::new(Handle::new(guid, logger.clone(), instance)))
+}
+
+/// Frees the instance in whatever phase it is. Null is fine.
+///
+/// # Safety
+/// As for [`call`]; the instance is not used afterwards.
+pub unsafe fn free_instance<V: Version, M: Exported<V>>(component: *mut c_void, function: &Function) {
+    // SAFETY: `component` is null or an instance, as the caller vouches.
+    let Ok(Some(handle)) = guarded(|| unsafe { Handle::<V, M>::recognise(component) }) else {
+        return;
+    };
+    let Some(claim) = handle.claim(function) else {
+        return;
+    };
+    handle.retire();
+    let logger = handle.logger.clone();
+    drop(claim);
+    // SAFETY: the box was made by `create` and is given up here: `handle` and `claim` are not used any more.
+    let freed = guarded(|| drop(unsafe { Box::from_raw(component.cast::<Handle<V, M>>()) }));
+    if let Err(panic) = freed {
+        let message = format!("{}: {panic}", function.name);
+        logger.explain(Status::Fatal, &message);
+    }
+}
+
+/// Logging on or off, with the categories that are wanted.
+///
+/// # Safety
+/// As for [`call`]; `categories` has `count` NUL-terminated texts.
+pub unsafe fn set_debug_logging<V: Version, M: Exported<V>>(
+    component: *mut c_void,
+    function: &Function,
+    logging_on: bool,
+    count: usize,
+    categories: *const *const c_char,
+) -> c_int {
+    // SAFETY: the caller vouches for the same.
+    unsafe {
+        call::<V, M>(component, function, |instance| {
+            let categories = memory::array("categories", categories, count)?
+                .iter()
+                .map(|category| memory::text("categories", *category))
+                .collect::<Result<Vec<_>, _>>()?;
+            instance.set_debug_logging(logging_on, &categories)
+        })
+    }
+}
