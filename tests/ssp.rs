@@ -4,13 +4,15 @@
 
 mod common;
 
-use common::{fmu, harness, harness_ok, results};
+use common::{fmu, harness, harness_ok, read_csv, results, root, skipped};
 use interface::mission::EMBEDDED;
 use interface::ports::{PORTS, Role, Shape};
-use ssp::{Component, DataType, Element, Package, Value, flatten};
+use ssp::{Component, Connection, Connector, DataType, Element, End, Kind, Package, Value, flatten};
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{Cursor, Read};
+use std::fs::File;
+use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 fn packed() -> PathBuf {
     fmu("fmu-nav").with_file_name("relative-navigation.ssp")
@@ -174,6 +176,174 @@ fn another_mission_is_bound_by_its_files() {
     );
     // The length that the structure suggests is that of the other mission, and the option goes before it.
     assert_eq!(results(&told)["summary.csv"], results(&plain)["summary.csv"]);
+}
+
+/// Packs the driver with names of its own for what it commands; `None` without a C compiler.
+fn driver(folder: &Path, [push, kick, kicks]: [&str; 3]) -> Option<PathBuf> {
+    let library = folder.join("push.so");
+    let source = root().join("tests/ssp/push.c");
+    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
+    let mut build = Command::new(compiler);
+    build.args([
+        "-shared",
+        "-fPIC",
+        "-Wall",
+        "-Werror",
+        "-o",
+        text(&library),
+        text(&source),
+    ]);
+    let Ok(done) = build.output() else {
+        skipped("a driver in a structure", "gcc");
+        return None;
+    };
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let output = |name: &str, reference: usize, kind: &str| {
+        format!(
+            "<ScalarVariable name=\"{name}\" valueReference=\"{reference}\" causality=\"output\" variability=\"discrete\">\
+             <{kind}/></ScalarVariable>"
+        )
+    };
+    let vectors = [push, kick].into_iter().enumerate();
+    let elements = vectors.flat_map(|(place, name)| (0..3).map(move |i| (format!("{name}[{}]", i + 1), 3 * place + i)));
+    let variables: String = elements
+        .map(|(name, reference)| output(&name, reference, "Real"))
+        .collect();
+    let description = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?><fmiModelDescription fmiVersion=\"2.0\" modelName=\"push\" guid=\"push\">\
+         <CoSimulation modelIdentifier=\"push\" canHandleVariableCommunicationStepSize=\"true\"/><ModelVariables>{variables}{}\
+         </ModelVariables><ModelStructure/></fmiModelDescription>",
+        output(kicks, 0, "Integer")
+    );
+    let path = folder.join(format!("{push}.fmu"));
+    let mut archive = zip::ZipWriter::new(File::create(&path).unwrap());
+    let binary = format!("binaries/{}/push.so", fmi2_import::PLATFORM);
+    let library = std::fs::read(library).unwrap();
+    for (name, bytes) in [
+        ("modelDescription.xml", description.as_bytes()),
+        (binary.as_str(), &library),
+    ] {
+        archive
+            .start_file(name, zip::write::SimpleFileOptions::default())
+            .unwrap();
+        archive.write_all(bytes).unwrap();
+    }
+    archive.finish().unwrap();
+    Some(path)
+}
+
+/// What commands the chaser, and tells the filter so: the packed structure with a driver, each connection a pair of ends.
+fn with_driver(folder: &Path, driver: &Path, connections: &[[&str; 2]]) -> PathBuf {
+    let mut structure = Package::open(&packed()).unwrap().structure().clone();
+    let connector = |name: &str, kind| Connector {
+        name: name.to_owned(),
+        kind,
+        data: None,
+    };
+    let mut component = Component::new("push", "resources/push.fmu");
+    for [from, to] in connections {
+        let (element, input) = to.split_once('.').unwrap();
+        for other in &mut structure.system.elements {
+            let Element::Component(other) = other else { continue };
+            if other.name == element && other.connectors.iter().all(|c| c.name != input) {
+                other.connectors.push(connector(input, Kind::Input));
+            }
+        }
+        if component.connectors.iter().all(|c| c.name != *from) {
+            component.connectors.push(connector(from, Kind::Output));
+        }
+        // What fed the input before feeds it no more.
+        structure
+            .system
+            .connections
+            .retain(|c| c.end != End::of(element, input));
+        let connection = Connection::new(End::of("push", from), End::of(element, input));
+        structure.system.connections.push(connection);
+    }
+    structure.system.add(component);
+    let mut files = BTreeMap::from([("resources/push.fmu".to_owned(), std::fs::read(driver).unwrap())]);
+    for name in ["fmu-truth", "fmu-nav"] {
+        files.insert(format!("resources/{name}.fmu"), std::fs::read(fmu(name)).unwrap());
+    }
+    let path = folder.join("driven.ssp");
+    std::fs::write(&path, Package::bytes(&structure, &files).unwrap()).unwrap();
+    path
+}
+
+/// A driver tells world and filter what it commands, under names of its own or of ours, as one of `--drive` does; other
+/// connections between them are refused.
+#[test]
+fn a_driver_tells_the_filter_what_it_commands() {
+    const OURS: [&str; 3] = ["a_cmd_c_n", "impulse_c_n", "impulse_count"];
+    const THEIRS: [&str; 3] = ["thrust", "kick", "kicks"];
+    let folder = tempfile::tempdir().unwrap();
+    let (Some(ours), Some(theirs)) = (driver(folder.path(), OURS), driver(folder.path(), THEIRS)) else {
+        return;
+    };
+    let run = |how: &[&str]| {
+        let out = folder.path().join("out");
+        let study = [
+            "compare",
+            "--filters",
+            "snc",
+            "--runs",
+            "1",
+            "--duration",
+            "400",
+            "--force",
+            "--out",
+            text(&out),
+        ];
+        harness_ok(&[&study[..], how].concat());
+        let row = read_csv(&out.join("runs.csv")).remove(0);
+        assert_eq!((&*row["filter"], &*row["failed"]), ("snc", "0"));
+        ["pos_rmse_m", "vel_rmse_m_s", "acc_rmse_m_s2", "nis"].map(|name| row[name].clone())
+    };
+    let wires = |names: [&str; 3], elements: &[&str]| {
+        let wire = |from: &str, to: &str| {
+            elements
+                .iter()
+                .map(|e| [from.to_owned(), format!("{e}.{to}")])
+                .collect::<Vec<_>>()
+        };
+        let mut all = wire(names[2], OURS[2]);
+        for (own, shared) in names.into_iter().zip(OURS).take(2) {
+            for i in 1..=3 {
+                all.extend(wire(&format!("{own}[{i}]"), &format!("{shared}[{i}]")));
+            }
+        }
+        all
+    };
+    let structure = |driver: &Path, wires: &[[String; 2]]| {
+        let wires: Vec<_> = wires.iter().map(|wire| wire.each_ref().map(String::as_str)).collect();
+        with_driver(folder.path(), driver, &wires)
+    };
+    let both: &[&str] = &["truth", "nav"];
+    let expected = run(&["--drive", &format!("push={}", text(&ours))]);
+    assert_ne!(expected, run(&[]), "what the driver does shows");
+    for (driver, names) in [(&ours, OURS), (&theirs, THEIRS)] {
+        let ssp = structure(driver, &wires(names, both));
+        assert_eq!(run(&["--ssp", text(&ssp)]), expected, "{names:?}");
+    }
+
+    let refused = |ssp: &Path| {
+        let out = folder.path().join("refused");
+        let refused = harness(&["compare", "--ssp", text(ssp), "--runs", "1", "--out", text(&out)]);
+        assert_eq!(refused.status.code(), Some(2));
+        String::from_utf8_lossy(&refused.stderr).into_owned()
+    };
+    let told = refused(&structure(&ours, &wires(OURS, &["truth"])));
+    assert!(
+        told.contains("'nav.a_cmd_c_n[1]': nothing feeds it, and a study would, from push.a_cmd_c_n[1]"),
+        "{told}"
+    );
+    let mut more = wires(THEIRS, both);
+    more.push(["thrust[1]", "nav.lidar.range"].map(str::to_owned));
+    let told = refused(&structure(&theirs, &more));
+    assert!(
+        told.contains("connection from push.thrust[1] to nav.lidar.range"),
+        "{told}"
+    );
 }
 
 /// What no study can represent is an error that names the element.

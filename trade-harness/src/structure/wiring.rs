@@ -253,9 +253,7 @@ fn connect(parts: &mut [Part<'_>], connection: &FlatConnection) -> Result<(), Pr
             ))
         }
         (Role::Filter, Role::Filter) => Some("in a study no filter feeds another; take the connection away".to_owned()),
-        (Role::Driver, Role::Driver) => {
-            Some("in a study no driver feeds another; put them into one FMU".to_owned())
-        }
+        (Role::Driver, Role::Driver) => Some("in a study no driver feeds another; put them into one FMU".to_owned()),
     };
     if let Some(why) = why {
         return Err((label, why));
