@@ -50,7 +50,7 @@ class Guidance(Fmi2Slave):
         register(self, "guidance.dv", self.dv, causality.output)
         register(self, "guidance.reference", self.reference, causality.output)
         # The filter settles until start; then transfer_s to the point.
-        self.point, self.start, self.transfer = [0.0, -20.0, 0.0], [120.0], [1200.0]
+        self.point, self.start, self.transfer = [0.0, 8.0, 0.0], [120.0], [1200.0]
         self.thrust, self.shortest, self.cycle = [5e-3], [0.05], [4.0]
         self.bandwidth, self.damping = [0.02], [1.0]
         register(self, "guidance.point", self.point, causality.parameter, **tunable)

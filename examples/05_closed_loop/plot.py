@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 INK, TRUTH, WANTED, ESTIMATE, VENT = "#333333", "#1f5f99", "#e08a1e", "#8a8a8a", "#b03a2e"
 
 
-def draw(rows, path, points=700):
+def draw(rows, path, points=350):
     """Path, distance from the reference beside the estimate's error, and what it costs, into an SVG file."""
     # The same bytes from the same flight.
     plt.rcParams.update({"svg.hashsalt": "closed loop", "font.size": 8, "axes.edgecolor": INK, "axes.linewidth": 0.6})
@@ -25,7 +25,8 @@ def draw(rows, path, points=700):
 
     off.plot(minutes, [row["off"] for row in flown], color=TRUTH, lw=1.0, label="from reference")
     off.plot(minutes, [row["taken"] for row in flown], color=ESTIMATE, lw=0.6, label="error of what guidance takes")
-    off.set(xlabel="time [min]", ylabel="distance [m]", title="how well it holds", ylim=(0, None))
+    off.set(xlabel="time [min]", ylabel="distance [m]", title="how well it holds")
+    off.set_ylim(0, 1.5 * max(row["off"] for row in flown))
     venting = [row["flow"] > 0 for row in rows]
     for before, after, row in zip(venting, venting[1:], rows[1:]):
         if after and not before:

@@ -184,17 +184,13 @@ def closed_loop(work, tools):
         for name in ("est.count", *elements(["est.r_tc_n", "est.v_tc_n", "pred.r_tc_n", "pred.v_tc_n"]))
     ]
     read += [["fmu-truth", name] for name in elements(["truth.r_tc_n", "truth.v_tc_n"])]
-    read += [["Guidance", name] for name in elements(["a_cmd_c_n"])] + [
-        ["LifeSupport", name] for name in elements(["f_dist_t_bt"])
-    ]
+    read += [["Guidance", name] for name in ["guidance.dv", *elements(["a_cmd_c_n"])]]
+    read += [["LifeSupport", name] for name in ["life.flow", *elements(["f_dist_t_bt"])]]
     table, firsts, same = {}, {}, True
     for step in STEPS:
         for module, scheme, order in tools.schemes:
             rows = fly(work, module, scheme, Case("closed", fmus, settings, read, step, STOP, str(work / "case")))
-            # Before guidance begins every flight is the same, without inputs.
-            if not any(float(row["a_cmd_c_n[1]"]) for row in rows) or not any(
-                float(row["f_dist_t_bt[1]"]) for row in rows
-            ):
+            if not float(rows[-1]["guidance.dv"]) or not any(float(row["life.flow"]) for row in rows):
                 raise RuntimeError(f"{scheme}: nothing is commanded or vented")
             first, reference = firsts.setdefault((order, step), (scheme, rows))
             found = (

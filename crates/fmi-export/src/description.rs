@@ -124,7 +124,10 @@ fn about<V: Version>(category: Category) -> String {
         Category::Events => return "noteworthy events of the model, sent while logging is on".to_owned(),
         Category::All => return "every message, details included".to_owned(),
     };
-    format!("messages of calls that end in {}{ended}, sent while logging is on", V::PREFIX)
+    format!(
+        "messages of calls that end in {}{ended}, sent while logging is on",
+        V::PREFIX
+    )
 }
 
 /// `<DefaultExperiment>`.

@@ -26,7 +26,8 @@ impl<S: Sink> Logger<S> {
 
     /// On or off; with categories, messages of those only.
     pub(crate) fn want(&self, on: bool, categories: &[Category]) {
-        self.wanted.store(Wanted::new(on, categories).to_bits(), Ordering::Relaxed);
+        self.wanted
+            .store(Wanted::new(on, categories).to_bits(), Ordering::Relaxed);
     }
 
     /// Sends what explains `status`, if it is to be heard.

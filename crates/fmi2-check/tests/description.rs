@@ -44,6 +44,7 @@ const XML: &[Edit] = &[
         "CoSimulation/Extra",
     ),
     ("<File name=\"good.c\"/>", "<File name=\"./good.c\"/>", "nothing", ""),
+    (" encoding=\"UTF-8\"", "", "nothing", ""),
     (
         "<DefaultExperiment startTime=\"0\" stopTime=\"2\" tolerance=\"1e-6\" stepSize=\"0.1\"/>",
         "",

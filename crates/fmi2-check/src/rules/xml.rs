@@ -3,7 +3,7 @@
 use crate::rule::rules;
 
 rules! {
-    ENCODING = "xml.encoding", Error, "2.2", "modelDescription.xml is UTF-8 and says so", "save it as UTF-8 with `encoding=\"UTF-8\"` in its first line";
+    ENCODING = "xml.encoding", Error, "2.2", "modelDescription.xml is UTF-8, and declares nothing else", "save it as UTF-8 with `encoding=\"UTF-8\"` in its first line";
     WELL_FORMED = "xml.well-formed", Error, "2.2", "modelDescription.xml is well-formed XML", "close every tag, quote every attribute, name each attribute once";
     ROOT = "xml.root", Error, "2.2.1", "the root element is fmiModelDescription", "write an FMI 2.0 model description";
     ELEMENT = "xml.element", Error, "2.2", "there are no elements but those of the schema", "take it away, or put it into VendorAnnotations";

@@ -124,12 +124,9 @@ fn grow(text: &str, findings: &mut Findings) -> Result<Node, Failure> {
             Event::Eof => break,
             Event::Decl(declaration) => {
                 let said = declaration.encoding().and_then(Result::ok).unwrap_or_default();
-                if !said.eq_ignore_ascii_case("utf-8") {
-                    let what = if said.is_empty() {
-                        "no encoding is declared".to_owned()
-                    } else {
-                        format!("the declared encoding is {said}")
-                    };
+                // Without a word XML is UTF-8.
+                if !said.is_empty() && !said.eq_ignore_ascii_case("utf-8") {
+                    let what = format!("the declared encoding is {said}");
                     findings.at(line, &rules::ENCODING, "modelDescription.xml", what);
                 }
             }

@@ -32,7 +32,7 @@ impl Wish<'_> {
                 pointer(self.token),
                 c"/no/such/folder/".as_ptr(),
                 0,
-                0,
+                1,
                 self.event_mode,
                 1,
                 required,
@@ -116,13 +116,13 @@ fn the_other_interfaces_are_refused_with_the_reason() {
     // SAFETY: pointers are null or to live values.
     let instances = unsafe {
         [
-            fmi3::fmi3InstantiateModelExchange(name, token, none, 0, 0, environment, Some(journal)),
+            fmi3::fmi3InstantiateModelExchange(name, token, none, 0, 1, environment, Some(journal)),
             fmi3::fmi3InstantiateScheduledExecution(
                 name,
                 token,
                 none,
                 0,
-                0,
+                1,
                 environment,
                 Some(journal),
                 None,

@@ -215,6 +215,7 @@ fn a_panic_is_fatal_for_its_instance_alone() {
 #[test]
 fn a_warning_of_the_model_is_the_status_of_the_call() {
     let host = Host::stepping(WARNS);
+    assert_eq!(host.set_debug_logging(0, &[]), Fine);
     assert_eq!(host.do_step(0.0, 1.0), Warning);
     assert_eq!(host.messages(), []);
     assert_eq!(host.set_debug_logging(1, &[c"logStatusWarning"]), Fine);
