@@ -337,13 +337,16 @@ fn a_driver_tells_the_filter_what_it_commands() {
         told.contains("'nav.a_cmd_c_n[1]': nothing feeds it, and a study would, from push.a_cmd_c_n[1]"),
         "{told}"
     );
-    let mut more = wires(THEIRS, both);
-    more.push(["thrust[1]", "nav.lidar.range"].map(str::to_owned));
-    let told = refused(&structure(&theirs, &more));
-    assert!(
-        told.contains("connection from push.thrust[1] to nav.lidar.range"),
-        "{told}"
-    );
+    let range = ["thrust[1]", "nav.lidar.range"].map(str::to_owned);
+    let alone = [["kick[1]", "truth.impulse_c_n[1]"].map(str::to_owned), range.clone()];
+    let told = refused(&structure(&theirs, &alone));
+    let says = "connection from push.thrust[1] to nav.lidar.range: in a study a driver tells a filter no more than the commands";
+    assert!(told.contains(says), "{told}");
+    let mut twice = wires(THEIRS, both);
+    twice.push(range);
+    let told = refused(&structure(&theirs, &twice));
+    assert!(told.contains("component 'nav'"), "{told}");
+    assert!(told.contains("would both stand for a_cmd_c_n[1]"), "{told}");
 }
 
 /// What no study can represent is an error that names the element.

@@ -139,6 +139,7 @@ pub(super) fn parts<'a>(
     for connection in others.into_iter().chain(told) {
         connect(&mut parts, connection)?;
     }
+    parts.iter().try_for_each(distinct)?;
     for connection in &flat.connections {
         converts(&parts, connection)?;
     }
@@ -173,6 +174,23 @@ fn rename(part: &mut Part<'_>, own: &str, contract: &str) -> Result<(), Problem>
             Ok(())
         }
     }
+}
+
+/// Checks that no two variables of a component stand for one quantity, as where one output feeds two of its inputs.
+fn distinct(part: &Part<'_>) -> Result<(), Problem> {
+    let mut known = BTreeMap::new();
+    for variable in &part.description.variables {
+        let name = part.contract(&variable.name);
+        if let Some(other) = known.insert(name, &variable.name) {
+            let text = format!(
+                "'{other}' and '{}' would both stand for {name}; a study feeds one input of a component with it, leave one \
+                 connection away",
+                variable.name
+            );
+            return Err(part.problem(text));
+        }
+    }
+    Ok(())
 }
 
 /// Checks a connector against the variable of its name.
