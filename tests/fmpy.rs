@@ -286,7 +286,6 @@ fn fmpy_simulates_the_system_structure_to_the_same_bits_as_the_harness() {
     let inertial: Names = &[
         ("est.r_tc_n", "est_pos", "m"),
         ("est.v_tc_n", "est_vel", "m_s"),
-        ("est.a_t_n", "est_acc", "m_s2"),
         ("est.b_c_bc", "est_bias", "m_s2"),
     ];
     let lvlh: Names = &[("est.rho_lvlh", "est_pos", "m"), ("est.rho_dot_lvlh", "est_vel", "m_s")];
