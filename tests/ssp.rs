@@ -145,6 +145,8 @@ fn a_study_of_the_packed_structure_is_that_of_its_filter() {
     let ssp = packed();
     harness_ok(&["compare", "--ssp", text(&ssp), "--runs", "2", "--out", text(&told)]);
     harness_ok(&["compare", "--filters", "hybrid", "--runs", "2", "--out", text(&plain)]);
+    // Its FMUs are where a repeat finds them.
+    harness_ok(&["rerun", text(&told), "--out", text(&folder.path().join("again"))]);
     let (told, plain) = (results(&told), results(&plain));
     for name in ["summary.csv", "runs.csv", "phases.csv"] {
         assert!(!told[name].is_empty());

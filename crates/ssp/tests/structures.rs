@@ -1,5 +1,7 @@
 //! Structures written by hand: what is read from them, and what is said of those that are wrong.
 
+#![allow(clippy::unwrap_used, reason = "what fails in a helper is a failed test")]
+
 use ssp::{Flat, Linear, Package, SspError, Value, flatten};
 use std::fs;
 use std::path::Path;

@@ -2,7 +2,7 @@
 //!
 //! The forms are those that every tool reads that the tests try: values are bound to components and not to systems, one set for each
 //! component; what tools skip or refuse where it is an enumeration has its Integer twin; an input stands among the connectors only
-//! where it is connected; names of elements are identifiers.
+//! where it is connected.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -38,7 +38,7 @@ const RECOMMENDED: &str = "hybrid";
 /// # Errors
 /// Reading and writing; what [`Package::bytes`] says.
 pub fn write(folder: &Path, mission: Option<&World>) -> Result<bool, HarnessError> {
-    let [truth, nav] = [TRUTH, NAV].map(|name| Fmu::open(&folder.join(format!("{name}.fmu"))));
+    let [truth, nav] = [TRUTH, NAV].map(|name| Fmu::open(folder.join(format!("{name}.fmu"))));
     let (truth, nav) = (truth?, nav?);
     let filters = filters_of(nav.description())?;
     let mut worlds = worlds::all()?;
@@ -252,9 +252,8 @@ fn readme(choices: &[(&World, String)], nav: &ModelDescription) -> String {
          connected to the input of the same name; no other input is connected, and none needs to be.\n\n\
          Another mission\n---------------\n\n\
          Each mission has two files of values, one for each element. SystemStructure.ssd binds those of the first; to fly\n\
-         another, write its files into the attribute 'source' of both ssd:ParameterBinding, or give its name to a tool that\n\
-         chooses sets of parameters by name. Length and step of a run are suggested by ssd:DefaultExperiment for the mission\n\
-         that is bound.\n\n"
+         another, write its files into the attribute 'source' of both ssd:ParameterBinding. Length and step of a run are\n\
+         suggested by ssd:DefaultExperiment for the mission that is bound.\n\n"
         .to_owned();
     for (world, filter) in choices {
         text.push_str(&format!(

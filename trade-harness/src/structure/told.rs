@@ -82,6 +82,12 @@ struct Unpacked {
     with_mission: bool,
 }
 
+/// The name of an element as part of the name of a file or filter; elements may be called anything.
+fn plain(name: &str) -> String {
+    let allowed = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    name.chars().map(|c| if allowed(c) { c } else { '_' }).collect()
+}
+
 /// Puts the FMUs into a folder, under names that tell them apart.
 fn unpack(package: &mut Package, flat: &Flat, folder: &Path) -> Result<Vec<Unpacked>, HarnessError> {
     let mut contents: Vec<Vec<u8>> = Vec::new();
@@ -100,7 +106,7 @@ fn unpack(package: &mut Package, flat: &Flat, folder: &Path) -> Result<Vec<Unpac
         let same_as = contents.iter().position(|other| *other == bytes).unwrap_or(here);
         let path = match fmus.get(same_as) {
             Some(first) => first.path.clone(),
-            None => folder.join(format!("{}.fmu", component.name)),
+            None => folder.join(format!("{here}-{}.fmu", plain(&component.name))),
         };
         if same_as == here {
             write_whole(&path, &bytes)?;
@@ -124,16 +130,9 @@ fn labels(flat: &Flat, fmus: &[Unpacked]) -> Result<Vec<String>, Problem> {
     let mut labels: Vec<String> = Vec::new();
     for (component, unpacked) in flat.components.iter().zip(fmus) {
         let model = unpacked.fmu.description().model_name.as_str();
-        let plain = |c: char| {
-            if c.is_ascii_alphanumeric() || c == '-' || c == '_' {
-                c
-            } else {
-                '_'
-            }
-        };
         let label: String = match [TRUTH, NAV].into_iter().find(|own| *own == model) {
             Some(own) => own.to_owned(),
-            None => component.name.chars().map(plain).collect(),
+            None => plain(&component.name),
         };
         let twice = labels.iter().position(|other| *other == label);
         if let Some(first) = twice.filter(|first| label != NAV || fmus[*first].same_as != unpacked.same_as) {
@@ -342,5 +341,16 @@ impl Worlds {
         worlds.duration_s = differs(times.stop_time, world.as_ref().map(|world| world.duration_s));
         worlds.step_s = differs(times.step_size, world.as_ref().map(|world| world.sample_period_s));
         Ok(worlds)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn no_name_of_an_element_leads_out_of_the_folder() {
+        assert_eq!(plain("../up/guest.filter"), "___up_guest_filter");
+        assert_eq!(plain("nav-2_b"), "nav-2_b");
     }
 }

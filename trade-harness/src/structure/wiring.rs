@@ -219,12 +219,16 @@ fn fits(part: &Part<'_>, connector: &Connector) -> Result<(), Problem> {
         ));
     }
     let Some(data) = &connector.data else { return Ok(()) };
-    let same = match (data, variable.base_type()) {
-        (DataType::Real { .. }, BaseType::Real) | (DataType::Boolean, BaseType::Boolean) => true,
-        (DataType::Integer | DataType::Enumeration(_), BaseType::Integer | BaseType::Enumeration) => true,
-        (DataType::String, BaseType::String) => true,
-        _ => false,
-    };
+    let same = matches!(
+        (data, variable.base_type()),
+        (DataType::Real { .. }, BaseType::Real)
+            | (DataType::Boolean, BaseType::Boolean)
+            | (
+                DataType::Integer | DataType::Enumeration(_),
+                BaseType::Integer | BaseType::Enumeration
+            )
+            | (DataType::String, BaseType::String)
+    );
     if !same {
         return wrong(format!(
             "is {}, and the variable is {}",
@@ -318,10 +322,9 @@ fn converts(parts: &[Part<'_>], connection: &FlatConnection) -> Result<(), Probl
 
 /// Checks that nothing is left open that a study connects, since its names are equal.
 fn complete(flat: &Flat, parts: &[Part<'_>]) -> Result<(), Problem> {
-    let made: BTreeSet<((usize, &str), (usize, &str))> = flat
-        .connections
-        .iter()
-        .map(|c| ((c.from.0, c.from.1.as_str()), (c.to.0, c.to.1.as_str())))
+    let ends = flat.connections.iter();
+    let made: BTreeSet<[(usize, &str); 2]> = ends
+        .map(|c| [(c.from.0, c.from.1.as_str()), (c.to.0, c.to.1.as_str())])
         .collect();
     let connects = |giver: Role, taker: Role, name: &str| match (giver, taker) {
         // A bound alone is fed the truth, by the study.
@@ -335,7 +338,7 @@ fn complete(flat: &Flat, parts: &[Part<'_>]) -> Result<(), Problem> {
             let missing = taker.of(Causality::Input).find_map(|input| {
                 let name = taker.contract(&input.name);
                 let output = giver.named(Causality::Output, name)?;
-                let made = made.contains(&((from, output), (to, input.name.as_str())));
+                let made = made.contains(&[(from, output), (to, input.name.as_str())]);
                 (!made && connects(giver.role, taker.role, name)).then_some((output, &input.name))
             });
             if let Some((output, input)) = missing {
