@@ -78,5 +78,8 @@ fn a_closed_loop_of_four_fmus_holds_its_point() {
     // A quintic from 14 m to 8 m in 1200 s takes 15/8 of the mean speed, up and down; vents and noise are more.
     assert!(delta_v > 2.0 * 1.875 * 5.5 / 1200.0 && delta_v < 1.0, "{shown}");
     let rows = read_csv(&folder.path().join("study/summary.csv"));
-    assert!(rows.iter().all(|r| r["filter"] == "snc" && r["failed"] == "0" && r["diverged"] == "0"));
+    assert!(
+        rows.iter()
+            .all(|r| r["filter"] == "snc" && r["failed"] == "0" && r["diverged"] == "0")
+    );
 }
