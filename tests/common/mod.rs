@@ -70,8 +70,8 @@ pub fn command(arguments: &[&str]) -> Command {
     if !matches!(first, Some("list" | "inspect")) {
         command.arg("--quiet");
     }
-    // A merge and a rerun take the FMUs that their study was made with, a report, a list and an inspection none.
-    if !matches!(first, Some("merge" | "report" | "list" | "rerun" | "inspect")) {
+    // A merge and a rerun take the FMUs that their study was made with, a report, a list and an inspection none; packing builds.
+    if !matches!(first, Some("merge" | "report" | "list" | "rerun" | "inspect" | "pack")) {
         command.arg("--no-build");
     }
     command

@@ -16,10 +16,10 @@ const STYLE: &str = "body{font:15px/1.5 sans-serif;margin:2em auto;max-width:70e
 table{border-collapse:collapse}td,th{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left;vertical-align:top}\
 code{white-space:nowrap}h2{margin-top:1.6em}.eq{font:1.15em/1.6 serif;margin:.6em 2em}";
 
-/// Files beside the page, and what they are.
+/// Files beside the page, `NAME` for that of the model, and what they are.
 const FILES: [(&str, &str); 4] = [
     (
-        "reference/",
+        "reference/NAME_ref.csv",
         "what this FMU answers in its default experiment, as the FMI cross-check rules write it",
     ),
     (
@@ -45,6 +45,7 @@ pub(super) fn html(d: &ModelDescription, filters: &Filters, model: &str) -> Stri
     page.push_str(model);
     page.push_str("<h2>Files</h2>\n<ul>\n");
     for (file, about) in FILES {
+        let file = file.replace("NAME", &name);
         page.push_str(&format!("<li><a href=\"{file}\">{file}</a>: {about}</li>\n"));
     }
     page.push_str("</ul>\n");
