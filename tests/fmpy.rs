@@ -32,15 +32,14 @@ fn python() -> Option<&'static Path> {
         .as_deref()
 }
 
-/// Runs a script of `tests/fmpy`, or one by its path from the root; returns what it printed, or `None` when it was skipped.
+/// Runs a script of `tests/fmpy`; returns what it printed, or `None` when it was skipped.
 fn script(test: &str, name: &str, arguments: &[&str]) -> Option<String> {
     let Some(python) = python() else {
         skipped(test, "python3-venv");
         return None;
     };
-    let folder = if name.contains('/') { "." } else { "tests/fmpy" };
     let output = Command::new(python)
-        .arg(root().join(folder).join(name))
+        .arg(root().join("tests/fmpy").join(name))
         .args(arguments)
         .output()
         .unwrap();
@@ -316,14 +315,4 @@ fn fmpy_couples_a_mission_from_a_file_to_the_same_bits_as_the_harness() {
         ["jacobi", "1", "200"],
     ];
     same_bits_from_both_masters(["--mission", text(&mission)], "snc", 7070, names, &ways);
-}
-
-/// Guidance in Python flies on the filter's estimates, and holds its point.
-#[test]
-fn the_closed_loop_of_the_examples_holds_its_point() {
-    let (truth, nav) = (fmu("fmu-truth"), fmu("fmu-nav"));
-    let fmus = ["--truth", text(&truth), "--nav", text(&nav)];
-    if let Some(out) = script("closed loop", "examples/05_closed_loop/closed_loop.py", &fmus) {
-        assert!(out.contains("after settling never more than"), "{out}");
-    }
 }

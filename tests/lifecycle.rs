@@ -471,6 +471,11 @@ fn common_mistakes(output: &'static str, input: &'static str, parameter: &'stati
             i.do_step(time(k) + wrong, H).map(drop)
         }));
     }
+    all.push(mistake(
+        &[Stepping],
+        &["fmi2DoStep", "too long", "at most 10000000 s"],
+        |i, k| i.do_step(time(k), 1e9).map(drop),
+    ));
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let says = ["fmi2SetReal", &bad.to_string(), "not finite"];
         all.push(bad_value(

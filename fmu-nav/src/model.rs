@@ -13,6 +13,9 @@ use std::path::Path;
 use std::sync::OnceLock;
 use uuid::Uuid;
 
+/// Longest step, s: what a world on a grid of 1 s takes in one.
+const LONGEST_STEP: f64 = 1e7;
+
 impl Model for NavModel {
     fn info() -> &'static ModelInfo {
         static INFO: OnceLock<ModelInfo> = OnceLock::new();
@@ -21,6 +24,8 @@ impl Model for NavModel {
             model_identifier: "fmu_nav",
             description: "Relative navigation filters of a chaser that does not know everything that acts on it and its target",
             version: env!("CARGO_PKG_VERSION"),
+            author: "the authors of relative-navigation-trades",
+            copyright: "Copyright (c) 2026 the authors of relative-navigation-trades",
             license: "MIT",
             guid: Uuid::parse_str(env!("FMU_GUID")).ok(),
             default_stop: Embedded::scenarios()
@@ -75,6 +80,13 @@ impl Model for NavModel {
             navigation.mission,
             experiment.start_time
         ));
+        Ok(())
+    }
+
+    fn check_step(&self, _t: f64, h: f64) -> Result<(), ModelError> {
+        if h > LONGEST_STEP {
+            return Err(format!("a step of {h} s is too long: at most {LONGEST_STEP} s are taken in one").into());
+        }
         Ok(())
     }
 

@@ -60,11 +60,15 @@ fn types(t: &mut Builder) {
     );
     let mut known = Vec::new();
     for tunable in FILTERS.iter().flat_map(|f| f.tunables) {
-        if let tunable::Kind::Choice { type_name, items } = tunable.kind
+        if let tunable::Kind::Choice {
+            type_name,
+            about,
+            items,
+        } = tunable.kind
             && !known.contains(&type_name)
         {
             known.push(type_name);
-            t.enumeration_type(type_name, "", items.iter().map(|item| (*item, "")));
+            t.enumeration_type(type_name, about, items.iter().copied());
         }
     }
 }
@@ -256,8 +260,9 @@ fn resolved_row(t: &mut Builder, filter: &str, tunable: &Tunable, place: usize) 
     .get(move |m| m.resolved.get(place).copied().unwrap_or(Beliefs::OWN));
 }
 
-/// Unit of every element of a port.
+/// Unit and order of magnitude of every element of a port.
 fn with_unit<'t>(row: Row<'t, NavModel, Real>, port: &'static Port) -> Row<'t, NavModel, Real> {
+    let row = row.nominal_by(|i| port.nominal(i));
     if port.unit(0) == "rad" {
         row.unit("rad").display_unit("deg")
     } else {

@@ -4,6 +4,8 @@
 //! [`truth::Simulation`]; `model.rs` answers what FMI asks. Behaviour belongs in `truth`, the C interfaces in `fmi2-export` and `fmi3-export`;
 //! here stands neither.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod model;
 mod slave;
 mod variables;

@@ -17,6 +17,8 @@ impl Model for TruthModel {
             model_identifier: "fmu_truth",
             description: "Simulated worlds of a chaser and its target, with the chaser's sensors",
             version: env!("CARGO_PKG_VERSION"),
+            author: "the authors of relative-navigation-trades",
+            copyright: "Copyright (c) 2026 the authors of relative-navigation-trades",
             license: "MIT",
             guid: Uuid::parse_str(env!("FMU_GUID")).ok(),
             default_stop: Embedded::scenarios()
@@ -67,6 +69,10 @@ impl Model for TruthModel {
         show(&mut self.signals, simulation.sample());
         self.simulation = Some(simulation);
         Ok(())
+    }
+
+    fn check_step(&self, t: f64, h: f64) -> Result<(), ModelError> {
+        self.simulation.as_ref().map_or(Ok(()), |s| Ok(s.check_end(t + h)?))
     }
 
     fn do_step(&mut self, t: f64, h: f64, _log: &mut Log<'_>) -> Result<(), ModelError> {

@@ -187,7 +187,9 @@ fn sensor_row(t: &mut Builder, port: &'static Port, slot: Slot) {
             } else {
                 row.unit_by(|i| port.unit(i))
             };
-            row = row.about_by(|i| port.about(i).to_owned());
+            row = row
+                .about_by(|i| port.about(i).to_owned())
+                .nominal_by(|i| port.nominal(i));
             // The start has no sample yet: the initial estimate, the attitude and the turn of the target's axes are what shows.
             let from: &[&'static str] = match name {
                 "nav_init.x" | "omega_lvlh" => &PUSHES_TARGET,
@@ -225,7 +227,8 @@ fn truth_row(t: &mut Builder, port: &'static Port) {
         "truth.rho_dot_lvlh" => |now, i| now.relative.map_or(0.0, |r| r.rho_dot_lvlh[i]),
         _ => |now, i| now.relative.map_or(0.0, |r| r.d_lvlh[i]),
     };
-    let mut row = t.real(port.name).output().unit(port.unit(0)).about(port.about(0));
+    let row = t.real(port.name).output().unit(port.unit(0)).about(port.about(0));
+    let mut row = row.nominal_by(|i| port.nominal(i));
     // Accelerations as such, and through the turning of the target's axes.
     if matches!(port.name, "truth.a_t_n" | "truth.rho_dot_lvlh" | "truth.d_lvlh") {
         row = PUSHES_TARGET.iter().fold(row, |row, input| row.initially_from(input));

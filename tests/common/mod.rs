@@ -66,12 +66,15 @@ pub fn command(arguments: &[&str]) -> Command {
     let mut command = Command::new(program);
     command.args(arguments).current_dir(root());
     let first = arguments.first().copied();
-    // What answers at once has no progress.
-    if !matches!(first, Some("list" | "inspect")) {
+    // What answers at once, or says all that it does, has no progress.
+    if !matches!(first, Some("list" | "inspect" | "check")) {
         command.arg("--quiet");
     }
-    // A merge and a rerun take the FMUs that their study was made with, a report, a list and an inspection none; packing builds.
-    if !matches!(first, Some("merge" | "report" | "list" | "rerun" | "inspect" | "pack")) {
+    // A merge and a rerun take the FMUs that their study was made with, a report, a list, an inspection and a check none; packing builds.
+    if !matches!(
+        first,
+        Some("merge" | "report" | "list" | "rerun" | "inspect" | "check" | "pack")
+    ) {
         command.arg("--no-build");
     }
     command

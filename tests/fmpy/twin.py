@@ -146,7 +146,7 @@ def instantiations(path, folder):
     description = read_model_description(path)
     identifier = description.coSimulation.modelIdentifier
     for kind, token, asked, part in [
-        (FMU3Slave, "{wrong}", {}, "instantiationToken given is '{wrong}'"),
+        (FMU3Slave, "{wrong}", {}, "instantiation token given is '{wrong}'"),
         (FMU3Slave, description.instantiationToken, {"eventModeUsed": True}, "hasEventMode = false"),
         (FMU3Slave, description.instantiationToken, {"requiredIntermediateVariables": [0]}, "1 intermediate variables"),
         (FMU3Model, description.instantiationToken, {}, "co-simulation only"),

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The longer tier with other people's tools: libcosim couples our FMUs, a filter made with PythonFMU takes the place of
-# fmu-nav, and valgrind watches real life cycles. Results and the virtual environment stay in target/masters.
-# What lacks a system package says SKIPPED and which.
+# The longer tier with other people's tools: other masters fly our FMUs, a filter made with PythonFMU takes the place of
+# fmu-nav, the checker reads and runs public FMUs, and valgrind watches real life cycles. Results and the virtual environment
+# stay in target/masters. What lacks a system package says SKIPPED and which.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -15,8 +15,6 @@ echo "# packing"
 cargo build --release --quiet --package trade-harness
 harness() { cargo run --release --quiet --package trade-harness -- "$@" --quiet; }
 harness pack --out "$work/fmu"
-truth=$work/fmu/fmu-truth.fmu
-nav=$work/fmu/fmu-nav.fmu
 ours=(--no-build --fmu-dir "$work/fmu")
 
 if ! cmp --silent "$here/requirements.txt" "$work/venv/requirements.txt"; then
@@ -27,17 +25,12 @@ if ! cmp --silent "$here/requirements.txt" "$work/venv/requirements.txt"; then
 fi
 
 if [ -x "$python" ]; then
-    echo "# libcosim: the same bits as the harness, in steps of 1 s and 0.25 s"
-    settings=(fixed_q.s=3e-6 chaser.q_coupled=false)
-    harness replay "${ours[@]}" --filters fixed_q "${settings[@]/#/--set=fmu-nav.}" --run 3 --seed 7 --out "$work/replay.csv"
-    "$python" "$here/ssp.py" "$truth" "$nav" "$work/ssp" "${settings[@]/#/fmu-nav.}" \
-        fmu-{truth,nav}.run=3 fmu-{truth,nav}.study_seed=7
-    for step in 1 0.25; do
-        "$python" "$here/cosim.py" "$work/ssp" "$step" 700 "$work/cosim.csv" >"$work/cosim.log" 2>&1 \
-            || { tail -n 20 "$work/cosim.log"; exit 1; }
-        # Values arrive one step late, so the last sample is not seen.
-        "$python" "$here/same.py" "$work/cosim.csv" "$work/replay.csv" 699
+    echo "# the same bits from every master, in open and in closed loop"
+    example=examples/05_closed_loop
+    for model in guidance life_support; do
+        "$work/venv/bin/pythonfmu" build --file "$example/$model.py" --dest "$work/fmu" "$example/pulse.py" >"$work/pythonfmu.log"
     done
+    "$python" "$here/equal.py" "$work" "target/release/trade-harness --quiet ${ours[*]}" docs/masters.md
 
     echo "# PythonFMU: a stranger's filter in the study"
     # Its library takes Python from the program that loads it, so the harness must bring one.
@@ -56,20 +49,26 @@ if [ -x "$python" ]; then
         # It fails in every run, which is an exit code of its own.
         study --set toy.stop_after=400 --out "$work/toy-stops" >/dev/null 2>"$work/toy.log" || [ $? = 1 ]
         "$python" "$here/toy_check.py" "$work/toy" "$work/toy-stops"
+        echo "# check: FMUs of other people, and the one that PythonFMU has built"
+        "$python" "$here/check_public.py" "$program" "$work/public" "$work/Toy.fmu"
     else
         skipped PythonFMU libpython3-dev
     fi
 else
-    skipped "libcosim and PythonFMU" python3-venv
+    skipped "other masters and PythonFMU" python3-venv
 fi
 
 if command -v valgrind >/dev/null; then
-    echo "# valgrind: life cycles, saved states and refused calls of both FMUs"
-    test=$(cargo test --release --quiet --test lifecycle --no-run --message-format json \
-        | sed -n 's/.*"executable":"\([^"]*lifecycle[^"]*\)".*/\1/p')
-    valgrind --quiet --error-exitcode=1 --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
-        --keep-debuginfo=yes --num-callers=40 --suppressions="$here/unloaded.supp" \
-        "$test" --test-threads 1 a_damaged_state mistakes_are_refused a_model_that_cannot
+    echo "# valgrind: life cycles, saved states, refused calls and hostile calls of both FMUs"
+    watched() {
+        test=$(cargo test --release --quiet --test "$1" --no-run --message-format json \
+            | sed -n 's/.*"executable":"\([^"]*'"$1"'[^"]*\)".*/\1/p')
+        valgrind --quiet --error-exitcode=1 --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
+            --keep-debuginfo=yes --num-callers=40 --suppressions="$here/unloaded.supp" \
+            "$test" --test-threads 1 "${@:2}"
+    }
+    watched lifecycle a_damaged_state mistakes_are_refused a_model_that_cannot
+    ENDURANCE_PERCENT=2 watched border a_million_hostile_calls
 else
     skipped valgrind valgrind
 fi

@@ -17,6 +17,9 @@ pub enum HarnessError {
     /// An FMU that cannot be used, or a name or value it does not know.
     #[error(transparent)]
     Import(Box<ImportError>),
+    /// An FMU that cannot be checked.
+    #[error(transparent)]
+    Check(#[from] fmi2_check::CheckError),
     /// An orbit, a field of gravity or a date that makes no sense.
     #[error(transparent)]
     Astro(#[from] astro::AstroError),
@@ -341,6 +344,18 @@ pub enum HarnessError {
         name: String,
         /// What it said.
         told: String,
+    },
+    /// What is not here that building for other platforms takes.
+    #[error("cannot build for every platform that was asked for; deploy/release.md tells how. {missing}")]
+    Platforms {
+        /// What, how to get it, and for which platform.
+        missing: String,
+    },
+    /// Libraries of two processors that cannot be joined in one file.
+    #[error("cannot join the libraries of macOS in one file: {source}")]
+    Universal {
+        /// Why.
+        source: fat_macho::Error,
     },
     /// Cargo built no library of that name.
     #[error("cargo named no shared library for '{target}'; is its crate-type still cdylib?")]

@@ -1,6 +1,7 @@
 //! Density of the upper atmosphere and the drag it causes.
 
 use nalgebra::Vector3;
+use numerics::math;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{finite, positive};
@@ -61,7 +62,7 @@ pub fn density(altitude: f64) -> f64 {
     }
     let above = LAYERS.partition_point(|(base, ..)| *base <= km);
     let (base, at_base, scale) = LAYERS[above.saturating_sub(1)];
-    at_base * (-(km - base) / scale).exp()
+    at_base * math::exp(-(km - base) / scale)
 }
 
 /// Altitude above the ellipsoid, along the line to the Earth's centre.
@@ -160,7 +161,7 @@ impl Atmosphere {
 
 impl Layer {
     fn density_at(&self, altitude: f64) -> f64 {
-        self.density * ((self.altitude - altitude.max(0.0)) / self.scale_height).exp()
+        self.density * math::exp((self.altitude - altitude.max(0.0)) / self.scale_height)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Turning of bodies: constant spin, and the shortest way from one attitude to another.
 
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use numerics::rotation;
 
 /// Attitude of a body that turns at a constant rate about an axis fixed in it (and so in space).
 ///
@@ -17,7 +18,7 @@ pub fn spin(rate_b: &Vector3<f64>, t: f64) -> Matrix3<f64> {
 /// * returns: axes A or B (the same components in both), length in [0, pi]. For half a turn, one of the two directions.
 pub fn turn(dcm_a_n: &Matrix3<f64>, dcm_b_n: &Matrix3<f64>) -> Vector3<f64> {
     let dcm_a_b = dcm_a_n * dcm_b_n.transpose();
-    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(dcm_a_b)).scaled_axis()
+    rotation::vector(&Rotation3::from_matrix_unchecked(dcm_a_b))
 }
 
 /// Attitude at a share of the shortest turn from one attitude to another: at a constant rate, on SO(3).
@@ -34,7 +35,7 @@ pub fn halfway(dcm_a_n: &Matrix3<f64>, dcm_b_n: &Matrix3<f64>) -> Matrix3<f64> {
 
 /// Components in axes that have turned by this rotation vector, rad.
 fn exp(turn: &Vector3<f64>) -> Matrix3<f64> {
-    Rotation3::new(-turn).into_inner()
+    rotation::by(&-turn).into_inner()
 }
 
 #[cfg(test)]

@@ -7,7 +7,8 @@
 //!   are counted from the Moon's equator and zonal gravity has its axis along z. They keep still; the Moon's pole moves
 //!   away from them by about 0.01 deg in a day.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Vector3};
+use numerics::rotation;
 use serde::{Deserialize, Serialize};
 
 use crate::harmonics::EGM96;
@@ -221,7 +222,7 @@ impl UniformRotation {
     ///
     /// * `t`: s since the start of the run.
     pub fn dcm_f_n(&self, t: f64) -> Matrix3<f64> {
-        Rotation3::from_axis_angle(&Vector3::z_axis(), -(self.angle + self.rate * t)).into_inner()
+        rotation::about(&Vector3::z_axis(), -(self.angle + self.rate * t)).into_inner()
     }
 }
 

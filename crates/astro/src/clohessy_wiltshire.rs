@@ -1,6 +1,7 @@
 //! Linear relative motion about a circular orbit.
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
+use numerics::math;
 use serde::{Deserialize, Serialize};
 
 /// Clohessy-Wiltshire model, LVLH axes of [`crate::relative`], state (rho, rho_dot).
@@ -45,9 +46,9 @@ impl ClohessyWiltshire {
     pub fn transition(&self, dt: f64) -> Matrix6<f64> {
         let n = self.mean_motion;
         let phase = n * dt;
-        let (s, c) = phase.sin_cos();
+        let (s, c) = math::sin_cos(phase);
         // 1 - cos, without the cancellation over a short step.
-        let k = 2.0 * (0.5 * phase).sin().powi(2);
+        let k = 2.0 * math::sin(0.5 * phase).powi(2);
         let drift = 6.0 * (s - phase);
         #[rustfmt::skip]
         let phi = Matrix6::new(

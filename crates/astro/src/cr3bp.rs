@@ -4,7 +4,8 @@
 //! the distance of the primaries, their mean motion and the sum of their gravitational parameters are one. [`Cr3bp`] works
 //! in these units; [`Cr3bpSystem`] knows the scales and works in SI.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Vector3};
+use numerics::rotation;
 use serde::{Deserialize, Serialize};
 
 use crate::error::positive;
@@ -192,7 +193,7 @@ impl InertialAxes {
 
 /// Direction cosine matrix from inertial axes to axes that have turned from them about z by `angle`, rad.
 pub fn dcm_rotating_inertial(angle: f64) -> Matrix3<f64> {
-    Rotation3::from_axis_angle(&Vector3::z_axis(), -angle).into_inner()
+    rotation::about(&Vector3::z_axis(), -angle).into_inner()
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 //! Inertial axes are the mean equator and equinox of date, which nutation (17 arcseconds), polar motion (0.3 arcseconds)
 //! and, over a day, precession (0.14 arcseconds) leave where they are.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Vector3};
+use numerics::rotation;
 
 use crate::epoch::centuries;
 
@@ -31,7 +32,7 @@ pub fn gmst(days: f64) -> f64 {
 ///
 /// * `days`: days since J2000.0.
 pub fn dcm_f_n(days: f64) -> Matrix3<f64> {
-    Rotation3::from_axis_angle(&Vector3::z_axis(), -gmst(days)).into_inner()
+    rotation::about(&Vector3::z_axis(), -gmst(days)).into_inner()
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Classical orbital elements of a closed orbit.
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::Vector3;
+use numerics::{math, rotation};
 
 use crate::AstroError;
 use crate::error::positive;
@@ -33,10 +34,10 @@ impl Elements {
     ///
     /// Source: Kepler's equation after the eccentric anomaly by Broucke and Cefola, Celestial Mechanics 7 (1973), 388.
     pub fn mean_from_true_anomaly(true_anomaly: f64, e: f64) -> f64 {
-        let (sin, cos) = true_anomaly.sin_cos();
+        let (sin, cos) = math::sin_cos(true_anomaly);
         let beta = e / (1.0 + (1.0 - e * e).sqrt());
-        let eccentric = true_anomaly - 2.0 * (beta * sin).atan2(1.0 + beta * cos);
-        eccentric - e * eccentric.sin()
+        let eccentric = true_anomaly - 2.0 * math::atan2(beta * sin, 1.0 + beta * cos);
+        eccentric - e * math::sin(eccentric)
     }
 
     /// Osculating elements of an inertial state; the inverse of [`Elements::to_state`].
@@ -71,15 +72,15 @@ impl Elements {
             return Err(no_orbit);
         }
         let normal = momentum / h;
-        let tilt = normal.x.hypot(normal.y);
+        let tilt = math::hypot(normal.x, normal.y);
         let node = if tilt > SINGULAR {
-            normal.x.atan2(-normal.y)
+            math::atan2(normal.x, -normal.y)
         } else {
             0.0
         };
-        let to_node = Vector3::new(node.cos(), node.sin(), 0.0);
+        let to_node = Vector3::new(math::cos(node), math::sin(node), 0.0);
         let ahead = normal.cross(&to_node);
-        let from_node = |place: &Vector3<f64>| place.dot(&ahead).atan2(place.dot(&to_node));
+        let from_node = |place: &Vector3<f64>| math::atan2(place.dot(&ahead), place.dot(&to_node));
         let argument_of_periapsis = if e > SINGULAR {
             from_node(&towards_periapsis)
         } else {
@@ -89,7 +90,7 @@ impl Elements {
         Ok(Self {
             a,
             e,
-            inclination: tilt.atan2(normal.z),
+            inclination: math::atan2(tilt, normal.z),
             node: turn(node),
             argument_of_periapsis: turn(argument_of_periapsis),
             mean_anomaly: turn(Self::mean_from_true_anomaly(true_anomaly, e)),
@@ -101,9 +102,9 @@ impl Elements {
     /// Source: Broucke and Cefola, Celestial Mechanics 7 (1973), 388.
     pub fn true_anomaly(&self) -> f64 {
         let eccentric = eccentric_anomaly(self.mean_anomaly, self.e);
-        let (sin, cos) = eccentric.sin_cos();
+        let (sin, cos) = math::sin_cos(eccentric);
         let beta = self.e / (1.0 + (1.0 - self.e * self.e).sqrt());
-        eccentric + 2.0 * (beta * sin).atan2(1.0 - beta * cos)
+        eccentric + 2.0 * math::atan2(beta * sin, 1.0 - beta * cos)
     }
 
     /// Distance of the periapsis from the centre, m; an orbit for which this is less than the body's radius hits it.
@@ -134,12 +135,12 @@ impl Elements {
         positive("gravitational parameter", mu, "m3/s2")?;
         let (a, e) = (self.a, self.e);
         let anomaly = eccentric_anomaly(self.mean_anomaly, e);
-        let (sin, cos) = anomaly.sin_cos();
+        let (sin, cos) = math::sin_cos(anomaly);
         let minor = (1.0 - e * e).sqrt();
         let rate = (mu / a).sqrt() / (1.0 - e * cos);
-        let to_inertial = Rotation3::from_axis_angle(&Vector3::z_axis(), self.node)
-            * Rotation3::from_axis_angle(&Vector3::x_axis(), self.inclination)
-            * Rotation3::from_axis_angle(&Vector3::z_axis(), self.argument_of_periapsis);
+        let to_inertial = rotation::about(&Vector3::z_axis(), self.node)
+            * rotation::about(&Vector3::x_axis(), self.inclination)
+            * rotation::about(&Vector3::z_axis(), self.argument_of_periapsis);
         let r = Vector3::new(a * (cos - e), a * minor * sin, 0.0);
         let v = Vector3::new(-rate * sin, rate * minor * cos, 0.0);
         Ok((to_inertial * r, to_inertial * v))
@@ -187,7 +188,7 @@ fn eccentric_anomaly(mean: f64, e: f64) -> f64 {
     let (sign, m) = ((mean - turns).signum(), (mean - turns).abs());
     let mut big_e = (m + e).min(PI);
     for _ in 0..100 {
-        let step = (big_e - e * big_e.sin() - m) / (1.0 - e * big_e.cos());
+        let step = (big_e - e * math::sin(big_e) - m) / (1.0 - e * math::cos(big_e));
         big_e -= step;
         if step.abs() < 1e-15 {
             break;

@@ -4,6 +4,8 @@
 //! What flies in this gravity, and when its thrusters fire, is told by `truth`; what a filter believes of it by `filters`.
 //! Start reading at [`ZonalGravity`]; what is known of the central body is in [`bodies`], two satellites are in [`relative`].
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod atmosphere;
 pub mod attitude;
 pub mod bodies;

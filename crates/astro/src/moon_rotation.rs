@@ -4,6 +4,7 @@
 //! to about 150 m at the surface.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
+use numerics::{math, rotation};
 
 use crate::epoch::centuries;
 
@@ -54,7 +55,7 @@ fn elements(days: f64) -> [f64; 3] {
         38.3213 + days * (13.176_358_15 - 1.4e-12 * days),
     ];
     for ((at_epoch, rate), [ascension, declination, meridian]) in ARGUMENTS.iter().zip(AMPLITUDES) {
-        let (sin, cos) = (at_epoch + rate * days).to_radians().sin_cos();
+        let (sin, cos) = math::sin_cos((at_epoch + rate * days).to_radians());
         pole_and_meridian[0] += ascension * sin;
         pole_and_meridian[1] += declination * cos;
         pole_and_meridian[2] += meridian * sin;
@@ -82,7 +83,7 @@ pub fn dcm_f_icrf(days: f64) -> Matrix3<f64> {
 
 /// Components in axes that are turned by `angle` about `axis`.
 fn turned(axis: nalgebra::UnitVector3<f64>, angle: f64) -> Rotation3<f64> {
-    Rotation3::from_axis_angle(&axis, -angle)
+    rotation::about(&axis, -angle)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Precession: from the mean equator and equinox of J2000.0 to those of date.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Vector3};
+use numerics::rotation;
 
 use crate::epoch::centuries;
 
@@ -18,7 +19,7 @@ pub fn dcm_date_j2000(days: f64) -> Matrix3<f64> {
         [2004.3109, -0.42665, -0.041833],
     ]
     .map(|[a, b, c]| (t * (a + t * (b + t * c)) / 3600.0).to_radians());
-    let about = |axis, angle| Rotation3::from_axis_angle(&axis, angle);
+    let about = |axis, angle| rotation::about(&axis, angle);
     (about(Vector3::z_axis(), z) * about(Vector3::y_axis(), -theta) * about(Vector3::z_axis(), zeta)).into_inner()
 }
 

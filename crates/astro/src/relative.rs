@@ -5,6 +5,7 @@
 //! chaser minus target: `rho`, m, and `rho_dot`, m/s, the rate that an observer turning with the axes sees.
 
 use nalgebra::{Matrix3, Vector3};
+use numerics::rotation;
 use serde::{Deserialize, Serialize};
 
 use crate::frames;
@@ -36,15 +37,7 @@ impl LvlhAxes {
 
     /// The same axes after `dt` seconds at a constant rate.
     pub fn after(&self, dt: f64) -> Self {
-        let angle = self.omega * dt;
-        let (norm, cross) = (angle.norm(), angle.cross_matrix());
-        // Rodrigues; both coefficients by their series where the angle is too small to divide by.
-        let (first, second) = if norm < 1e-4 {
-            (1.0 - norm * norm / 6.0, 0.5 - norm * norm / 24.0)
-        } else {
-            (norm.sin() / norm, (1.0 - norm.cos()) / (norm * norm))
-        };
-        let turn = Matrix3::identity() - cross * first + cross * cross * second;
+        let turn = rotation::by(&(self.omega * -dt)).into_inner();
         Self {
             dcm_lvlh_n: turn * self.dcm_lvlh_n,
             omega: self.omega,

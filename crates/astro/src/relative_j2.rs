@@ -1,6 +1,7 @@
 //! Relative motion about an oblate Earth, without linearisation: any distance, any eccentricity.
 
 use nalgebra::{Matrix3, SVector, Vector3, Vector6};
+use numerics::math;
 use serde::{Deserialize, Serialize};
 
 use crate::relative::turning_axes;
@@ -30,29 +31,29 @@ impl TargetOrbit {
     pub fn from_state(r_n: &Vector3<f64>, v_n: &Vector3<f64>) -> Self {
         let momentum = r_n.cross(v_n);
         let (r, h) = (r_n.norm(), momentum.norm());
-        let in_plane = momentum.x.hypot(momentum.y);
+        let in_plane = math::hypot(momentum.x, momentum.y);
         let node = if in_plane > 0.0 {
-            momentum.x.atan2(-momentum.y)
+            math::atan2(momentum.x, -momentum.y)
         } else {
             0.0
         };
-        let towards_node = Vector3::new(node.cos(), node.sin(), 0.0);
+        let towards_node = Vector3::new(math::cos(node), math::sin(node), 0.0);
         let ahead = momentum.cross(&towards_node) / h;
         Self {
             r,
             r_dot: r_n.dot(v_n) / r,
             h,
-            inclination: in_plane.atan2(momentum.z),
-            argument_of_latitude: r_n.dot(&ahead).atan2(r_n.dot(&towards_node)),
+            inclination: math::atan2(in_plane, momentum.z),
+            argument_of_latitude: math::atan2(r_n.dot(&ahead), r_n.dot(&towards_node)),
             node,
         }
     }
 
     /// Inertial position and velocity, N, m and m/s.
     pub fn to_state(&self) -> (Vector3<f64>, Vector3<f64>) {
-        let (sin_i, cos_i) = self.inclination.sin_cos();
-        let (sin_u, cos_u) = self.argument_of_latitude.sin_cos();
-        let (sin_o, cos_o) = self.node.sin_cos();
+        let (sin_i, cos_i) = math::sin_cos(self.inclination);
+        let (sin_u, cos_u) = math::sin_cos(self.argument_of_latitude);
+        let (sin_o, cos_o) = math::sin_cos(self.node);
         let towards_node = Vector3::new(cos_o, sin_o, 0.0);
         let quarter_ahead = Vector3::new(-sin_o * cos_i, cos_o * cos_i, sin_i);
         let radial = towards_node * cos_u + quarter_ahead * sin_u;
@@ -124,8 +125,8 @@ impl J2RelativeMotion {
     /// Source: Gauss's equations with the acceleration of J2, as in Wang, Wu and Poh, Satellite Formation Flying.
     pub fn orbit_rate(&self, orbit: &TargetOrbit) -> Vector6<f64> {
         let TargetOrbit { r, r_dot, h, .. } = *orbit;
-        let (sin_i, cos_i) = orbit.inclination.sin_cos();
-        let (sin_u, cos_u) = orbit.argument_of_latitude.sin_cos();
+        let (sin_i, cos_i) = math::sin_cos(orbit.inclination);
+        let (sin_u, cos_u) = math::sin_cos(orbit.argument_of_latitude);
         let k = self.k();
         let r3 = r * r * r;
         let node_rate = -2.0 * k * cos_i * sin_u * sin_u / (h * r3);
@@ -144,8 +145,8 @@ impl J2RelativeMotion {
     /// Source: Eq. (32), omega and alpha.
     pub fn frame_rates(&self, orbit: &TargetOrbit) -> (Vector3<f64>, Vector3<f64>) {
         let TargetOrbit { r, r_dot, h, .. } = *orbit;
-        let (sin_i, cos_i) = orbit.inclination.sin_cos();
-        let (sin_u, cos_u) = orbit.argument_of_latitude.sin_cos();
+        let (sin_i, cos_i) = math::sin_cos(orbit.inclination);
+        let (sin_u, cos_u) = math::sin_cos(orbit.argument_of_latitude);
         let k = self.k();
         let sin_2i = 2.0 * sin_i * cos_i;
         let (r3, r5) = (r.powi(3), r.powi(5));
@@ -175,7 +176,7 @@ impl J2RelativeMotion {
         let north = north(orbit);
         // 1 + q = (r_j / r_0)^2, and less(p) = (r_0 / r_j)^p - 1.
         let q = (2.0 * r0 * rho.x + rho.norm_squared()) / (r0 * r0);
-        let less = |p: f64| (-0.5 * p * q.ln_1p()).exp_m1();
+        let less = |p: f64| math::exp_m1(-0.5 * p * math::ln_1p(q));
         let (less_3, less_5, less_7) = (less(3.0), less(5.0), less(7.0));
         let (mu3, k5) = (self.mu / r0.powi(3), k / r0.powi(5));
         // Heights over the equator: r_JZ = z_0 + dz, in units of r_0.
@@ -223,8 +224,8 @@ impl J2RelativeMotion {
 
 /// The Earth's axis in LVLH.
 fn north(orbit: &TargetOrbit) -> Vector3<f64> {
-    let (sin_i, cos_i) = orbit.inclination.sin_cos();
-    let (sin_u, cos_u) = orbit.argument_of_latitude.sin_cos();
+    let (sin_i, cos_i) = math::sin_cos(orbit.inclination);
+    let (sin_u, cos_u) = math::sin_cos(orbit.argument_of_latitude);
     Vector3::new(sin_i * sin_u, sin_i * cos_u, cos_i)
 }
 

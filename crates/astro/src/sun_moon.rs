@@ -4,6 +4,7 @@
 //! series are good to about 0.01 deg for the Sun and to a few arcminutes and 500 km for the Moon.
 
 use nalgebra::Vector3;
+use numerics::math;
 
 use crate::epoch::centuries;
 
@@ -74,8 +75,8 @@ pub fn sun(days: f64) -> Vector3<f64> {
     let t = centuries(days);
     let m = (357.5256 + 35999.049 * t).to_radians();
     let perihelion = (282.9400 + PERIHELION_RATE_DEG * t).to_radians();
-    let longitude = perihelion + m + arcseconds(6892.0 * m.sin() + 72.0 * (2.0 * m).sin());
-    let distance = (149.619 - 2.499 * m.cos() - 0.021 * (2.0 * m).cos()) * 1e9;
+    let longitude = perihelion + m + arcseconds(6892.0 * math::sin(m) + 72.0 * math::sin(2.0 * m));
+    let distance = (149.619 - 2.499 * math::cos(m) - 0.021 * math::cos(2.0 * m)) * 1e9;
     equatorial(t, longitude, 0.0, distance)
 }
 
@@ -95,10 +96,10 @@ pub fn moon(days: f64) -> Vector3<f64> {
         (297.85027 + 445_267.111_35 * t).to_radians(),
     ];
     let [_, sun_anomaly, f, _] = arguments;
-    let inequality = arcseconds(sum(&MOON_LONGITUDE, &arguments, f64::sin));
-    let node_distance = f + inequality + arcseconds(412.0 * (2.0 * f).sin() + 541.0 * sun_anomaly.sin());
-    let latitude = arcseconds(18520.0 * node_distance.sin() + sum(&MOON_LATITUDE, &arguments, f64::sin));
-    let distance = sum(&MOON_DISTANCE, &arguments, f64::cos) * 1e3;
+    let inequality = arcseconds(sum(&MOON_LONGITUDE, &arguments, math::sin));
+    let node_distance = f + inequality + arcseconds(412.0 * math::sin(2.0 * f) + 541.0 * math::sin(sun_anomaly));
+    let latitude = arcseconds(18520.0 * math::sin(node_distance) + sum(&MOON_LATITUDE, &arguments, math::sin));
+    let distance = sum(&MOON_DISTANCE, &arguments, math::cos) * 1e3;
     equatorial(t, mean_longitude + inequality, latitude, distance)
 }
 
@@ -117,7 +118,7 @@ pub fn moon(days: f64) -> Vector3<f64> {
 pub fn third_body(mu: f64, body: &Vector3<f64>, r: &Vector3<f64>) -> Vector3<f64> {
     let q = r.dot(&(r - body * 2.0)) / body.norm_squared();
     // (1 + q)^(3/2) - 1, where 1 + q = |body - r|^2 / |body|^2.
-    let f = q * (3.0 + q * (3.0 + q)) / (1.0 + (1.0 + q).powf(1.5));
+    let f = q * (3.0 + q * (3.0 + q)) / (1.0 + math::powf(1.0 + q, 1.5));
     (r + body * f) * (-mu / (body - r).norm().powi(3))
 }
 
@@ -135,9 +136,9 @@ fn sum(series: &[(f64, [f64; 4])], arguments: &[f64; 4], wave: fn(f64) -> f64) -
 
 /// From ecliptic longitude and latitude, rad, and distance, m, to equatorial axes. Obliquity of date, IAU 1976.
 fn equatorial(t: f64, longitude: f64, latitude: f64, distance: f64) -> Vector3<f64> {
-    let (sin_e, cos_e) = (23.439_291_11 - 0.013_004_2 * t).to_radians().sin_cos();
-    let (sin_l, cos_l) = longitude.sin_cos();
-    let (sin_b, cos_b) = latitude.sin_cos();
+    let (sin_e, cos_e) = math::sin_cos((23.439_291_11 - 0.013_004_2 * t).to_radians());
+    let (sin_l, cos_l) = math::sin_cos(longitude);
+    let (sin_b, cos_b) = math::sin_cos(latitude);
     let (x, y, z) = (cos_b * cos_l, cos_b * sin_l, sin_b);
     Vector3::new(x, cos_e * y - sin_e * z, sin_e * y + cos_e * z) * distance
 }

@@ -124,7 +124,7 @@ fn dependencies(manifest: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// What the build script of an FMU does: tells cargo its GUID, as `FMU_GUID`, and what to watch.
+/// What the build script of an FMU does: tells cargo its GUID, as `FMU_GUID`, the name of its library, and what to watch.
 ///
 /// * `folder`: of the FMU's crate, in the workspace; `name`: of that crate.
 ///
@@ -137,6 +137,11 @@ pub fn tell_cargo(folder: &Path, name: &str) -> io::Result<()> {
         .filter_map(|(key, _)| key.strip_prefix("CARGO_FEATURE_").map(str::to_owned))
         .collect();
     println!("cargo:rustc-env=FMU_GUID={}", inputs.guid(&features)?);
+    if std::env::var("CARGO_CFG_TARGET_VENDOR").is_ok_and(|vendor| vendor == "apple") {
+        // A library of macOS has its name inside, which is otherwise the path that it was built at.
+        let name = name.replace('-', "_");
+        println!("cargo:rustc-cdylib-link-arg=-Wl,-install_name,@rpath/{name}.dylib");
+    }
     for path in inputs.watched() {
         println!("cargo:rerun-if-changed={}", path.display());
     }

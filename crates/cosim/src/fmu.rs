@@ -73,11 +73,7 @@ impl Slave for FmuSlave {
     }
 
     fn messages(&mut self) -> Vec<String> {
-        self.instance
-            .messages()
-            .into_iter()
-            .map(|m| format!("{} [{}] {}", m.status, m.category, m.text))
-            .collect()
+        self.instance.messages().iter().map(ToString::to_string).collect()
     }
 
     fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), SlaveError> {

@@ -17,6 +17,8 @@
 //!
 //! Without a record, at the start above all, only what is beyond all bounds and far from the measurement before is passed by.
 
+use numerics::math;
+
 use crate::laws::Step;
 use crate::layout::Layout;
 use crate::sample::{Reading, Sample, SpecificForce};
@@ -222,7 +224,7 @@ impl Editing {
         let Some(share) = self.share else {
             return Vec::new();
         };
-        let odds = ((1.0 - share) / share).ln();
+        let odds = math::ln((1.0 - share) / share);
         let mut found = Vec::new();
         for sensor in Sensor::ALL {
             let (Some(rows), Some(z)) = (layout.of_sensor(sensor), sample[sensor].seen()) else {
@@ -344,7 +346,7 @@ impl Seen {
         let v = &self.innovation;
         let log_density = |s: SMatrix<f64, MOST, MOST>| {
             let factor = s.cholesky()?;
-            let ln_root_det: f64 = factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
+            let ln_root_det: f64 = factor.l_dirty().diagonal().iter().map(|d| math::ln(*d)).sum();
             Some(-0.5 * v.dot(&factor.solve(v)) - ln_root_det)
         };
         match (log_density(self.s), log_density(self.s + self.more)) {

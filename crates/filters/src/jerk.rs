@@ -1,5 +1,7 @@
 //! Process noise of the target's three states per axis: r, v, a driven by white jerk or white acceleration.
 
+use numerics::math;
+
 use crate::state::TargetMatrix;
 use nalgebra::{Matrix3, Vector3};
 
@@ -25,7 +27,7 @@ pub fn gamma_factor(dt: f64) -> Matrix3<f64> {
         r3 / 3.0,
         1.0 / 3.0,
     );
-    let scale = Vector3::new(dt.powf(2.5), dt.powf(1.5), dt.sqrt());
+    let scale = Vector3::new(math::powf(dt, 2.5), math::powf(dt, 1.5), dt.sqrt());
     Matrix3::from_diagonal(&scale) * unit
 }
 
@@ -89,7 +91,7 @@ pub fn gauss_markov(q: f64, beta: f64, dt: f64) -> TargetMatrix {
         let t = dt * (1.0 + node) / 2.0;
         // Answer of (r, v, a) to a unit impulse of jerk a time t ago, by its series: beta t is small.
         let x = beta * t;
-        let answer = Vector3::new(t * t * psi(x, 2), t * psi(x, 1), (-x).exp());
+        let answer = Vector3::new(t * t * psi(x, 2), t * psi(x, 1), math::exp(-x));
         block += answer * answer.transpose() * (weight * dt / 2.0);
     }
     on_every_axis(&block, &Vector3::repeat(q))
@@ -99,9 +101,9 @@ pub fn gauss_markov(q: f64, beta: f64, dt: f64) -> TargetMatrix {
 fn psi(x: f64, order: i32) -> f64 {
     if x > 0.5 {
         return if order == 1 {
-            -(-x).exp_m1() / x
+            -math::exp_m1(-x) / x
         } else {
-            (x + (-x).exp_m1()) / (x * x)
+            (x + math::exp_m1(-x)) / (x * x)
         };
     }
     // sum over k of (-x)^k / (k + order)!

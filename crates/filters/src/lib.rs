@@ -13,6 +13,8 @@
 //! Nothing here knows of the simulated truth, but for the two filters that are bounds and are told by it ([`Untold`]); nothing here
 //! knows of FMI.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod beliefs;
 mod commands;
 mod disturbance;

@@ -108,8 +108,10 @@ pub enum Kind {
     Choice {
         /// FMI type name of the enumeration.
         type_name: &'static str,
-        /// Names of the choices.
-        items: &'static [&'static str],
+        /// What the choice is of.
+        about: &'static str,
+        /// Names of the choices, and what each means.
+        items: &'static [(&'static str, &'static str)],
     },
 }
 

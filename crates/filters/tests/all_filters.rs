@@ -431,7 +431,7 @@ fn registry_is_complete() {
                     Kind::Real { .. } => text.parse::<f64>().is_ok(),
                     Kind::Integer { min, max, .. } => text.parse::<i32>().is_ok_and(|v| (min..=max).contains(&v)),
                     Kind::Boolean { .. } => text.parse::<bool>().is_ok(),
-                    Kind::Choice { items, .. } => items.contains(text),
+                    Kind::Choice { items, .. } => items.iter().any(|(item, _)| item == text),
                 };
                 assert!(fits, "{}@{}: {name} = {text}", entry.name, preset.name);
             }

@@ -45,7 +45,7 @@ fn every_corner_of_a_search_is_a_legal_tuning() {
                         let Kind::Choice { items, .. } = declared.kind else {
                             panic!("{}.{choice} is no choice", entry.name);
                         };
-                        let place = items.iter().position(|own| *own == item).unwrap();
+                        let place = items.iter().position(|(own, _)| *own == item).unwrap();
                         *settings.tunable_mut(entry.name, choice).unwrap() = Value::Choice(place);
                     }
                     let end = if corner >> i & 1 == 0 { range.low } else { range.high };

@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use fmi_model::{
     Category, Causality, DefinitionError, Element, Model, ModelInfo, Table, Typed, Unit, Variable, braced, number,
+    quantity,
 };
 use uuid::Uuid;
 
-use crate::version::{Sink, Version};
+use crate::version::Version;
 
 /// Stands for a GUID that the build makes: a committed description cannot know it.
 const MADE_BY_THE_BUILD: &str = "{made-by-the-build}";
@@ -73,6 +74,20 @@ pub fn unit_definitions<M>(table: &Table<M>, further: &[&'static str]) -> Option
     section("UnitDefinitions", elements)
 }
 
+/// The quantities in use, each a type of its own: name, unit and display unit, by name.
+pub fn quantities<M>(table: &Table<M>) -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
+    let mut known: BTreeMap<&'static str, (&'static str, &'static str)> = BTreeMap::new();
+    for entry in table.entries() {
+        if let (Typed::Real { display_unit, .. }, Some(unit)) = (&entry.row.typed, entry.unit())
+            && let Some((name, unit)) = quantity(unit)
+        {
+            let (_, shown) = known.entry(name).or_insert((unit, ""));
+            *shown = display_unit.unwrap_or(shown);
+        }
+    }
+    known.into_iter().map(|(name, (unit, shown))| (name, unit, shown))
+}
+
 /// `<Unit>` with the display units in use. A unit with a fractional exponent has no `<BaseUnit>`: FMI has no way to say it.
 fn unit_element(unit: &Unit, display_units: &BTreeSet<&str>) -> Element {
     let mut element = Element::new("Unit").attribute("name", unit.name());
@@ -109,12 +124,10 @@ fn about<V: Version>(category: Category) -> String {
         Category::Events => return "noteworthy events of the model, sent while logging is on".to_owned(),
         Category::All => return "every message, details included".to_owned(),
     };
-    let when = if V::Sink::always_sent(category) {
-        "always sent"
-    } else {
-        "sent while logging is on"
-    };
-    format!("messages of calls that end in {}{ended}; {when}", V::PREFIX)
+    format!(
+        "messages of calls that end in {}{ended}, sent while logging is on",
+        V::PREFIX
+    )
 }
 
 /// `<DefaultExperiment>`.
@@ -122,6 +135,7 @@ pub fn default_experiment(info: &ModelInfo) -> Element {
     Element::new("DefaultExperiment")
         .attribute("startTime", "0")
         .attribute("stopTime", number(info.default_stop))
+        .attribute("tolerance", number(info.default_tolerance))
         .attribute("stepSize", number(info.default_step))
 }
 

@@ -11,9 +11,10 @@ use uuid::Uuid;
 
 use crate::identity::{Exported, own_guid};
 use crate::instance::Instance;
+use crate::log::Logger;
 use crate::order::Function;
 use crate::status::Status;
-use crate::version::{Sink, Version};
+use crate::version::Version;
 
 /// First bytes behind every handle, by which misuse is recognised. All FMUs made with this crate share the layout.
 #[repr(C)]
@@ -67,16 +68,16 @@ pub(crate) struct Handle<V: Version, M> {
     /// A call is under way.
     busy: AtomicBool,
     /// Can be spoken to even then.
-    pub(crate) sink: V::Sink,
+    pub(crate) logger: Logger<V::Sink>,
     instance: UnsafeCell<Instance<V, M>>,
 }
 
 impl<V: Version, M: Exported<V>> Handle<V, M> {
-    pub(crate) fn new(guid: Uuid, sink: V::Sink, instance: Instance<V, M>) -> Self {
+    pub(crate) fn new(guid: Uuid, logger: Logger<V::Sink>, instance: Instance<V, M>) -> Self {
         Self {
             head: Head::new(instance_of::<V>(), guid),
             busy: AtomicBool::new(false),
-            sink,
+            logger,
             instance: UnsafeCell::new(instance),
         }
     }
@@ -101,7 +102,7 @@ impl<V: Version, M: Exported<V>> Handle<V, M> {
                 "{}: another call on this instance is under way; wait for it, and call nothing from the logger",
                 function.name
             );
-            self.sink.explain(Status::Error, &message);
+            self.logger.explain(Status::Error, &message);
             return None;
         }
         Some(Claim { handle: self })

@@ -6,8 +6,7 @@
 //! goes to. [`lifecycle`] and [`states`] hold the functions that are the same in every standard but for their names, [`memory`]
 //! makes slices of pointers, [`description`] renders what two descriptions have in common.
 
-#[doc(hidden)]
-pub mod call;
+mod call;
 pub mod description;
 mod error;
 mod golden;

@@ -16,7 +16,7 @@ use crate::log::Logger;
 use crate::memory;
 use crate::order::Function;
 use crate::status::Status;
-use crate::version::{Sink, Version};
+use crate::version::Version;
 
 /// What every host says when it asks for an instance.
 #[derive(Debug, Clone, Copy)]
@@ -25,11 +25,11 @@ pub struct Wish {
     pub name: *const c_char,
     /// The identifier in the description, and the name of the argument that it came in.
     pub identifier: (&'static str, *const c_char),
-    /// Whether debug messages are wanted.
+    /// Whether messages are wanted.
     pub logging_on: bool,
 }
 
-/// Makes an instance; null, and the reason to `sink`, for an empty name, a wrong identifier, a faulty definition, or what `resources`
+/// Makes an instance; null, and the reason to `sink` if logging is on, for an empty name, a wrong identifier, a faulty definition, or what `resources`
 /// finds.
 ///
 /// * `resources`: looks at what else the standard's function was given, and answers with the folder of the FMU's resources, if there
@@ -43,6 +43,7 @@ pub unsafe fn create<V: Version, M: Exported<V>>(
     wish: Wish,
     resources: impl FnOnce() -> Result<Option<PathBuf>, CallError>,
 ) -> *mut c_void {
+    let logger = Logger::new(sink.clone(), wish.logging_on);
     let created = guarded(|| {
         let (argument, identifier) = wish.identifier;
         // SAFETY: both are texts, as the caller vouches.
@@ -61,7 +62,7 @@ pub unsafe fn create<V: Version, M: Exported<V>>(
                 }
             })
             .and_then(|()| resources())
-            .and_then(|resources| handle::<V, M>(given?, resources, wish.logging_on, sink));
+            .and_then(|resources| handle::<V, M>(given?, resources, &logger));
         made.map_err(|error| error.chain())
     });
     let (status, reason) = match created {
@@ -70,15 +71,14 @@ pub unsafe fn create<V: Version, M: Exported<V>>(
         Err(panic) => (Status::Fatal, panic),
     };
     let message = format!("{}: {reason}", function.name);
-    sink.explain(status, &message);
+    logger.explain(status, &message);
     ptr::null_mut()
 }
 
 fn handle<V: Version, M: Exported<V>>(
     given: &str,
     resources: Option<PathBuf>,
-    logging_on: bool,
-    sink: &V::Sink,
+    logger: &Logger<V::Sink>,
 ) -> Result<Box<Handle<V, M>>, CallError> {
     let guid = own_guid::<V, M>()?;
     let own = braced(guid);
@@ -89,13 +89,13 @@ fn handle<V: Version, M: Exported<V>>(
         .unwrap_or(own);
     if given != own {
         return Err(CallError::WrongIdentifier {
-            kind: V::IDENTIFIER,
+            kind: V::IDENTIFIER_NAME,
             given: given.to_owned(),
             own,
         });
     }
-    let instance = Instance::new(Logger::new(sink.clone(), logging_on), resources);
-    Ok(Box::new(Handle::new(guid, sink.clone(), instance)))
+    let instance = Instance::new(logger.clone(), resources);
+    Ok(Box::new(Handle::new(guid, logger.clone(), instance)))
 }
 
 /// Frees the instance in whatever phase it is. Null is fine.
@@ -111,13 +111,13 @@ pub unsafe fn free_instance<V: Version, M: Exported<V>>(component: *mut c_void, 
         return;
     };
     handle.retire();
-    let sink = handle.sink.clone();
+    let logger = handle.logger.clone();
     drop(claim);
     // SAFETY: the box was made by `create` and is given up here: `handle` and `claim` are not used any more.
     let freed = guarded(|| drop(unsafe { Box::from_raw(component.cast::<Handle<V, M>>()) }));
     if let Err(panic) = freed {
         let message = format!("{}: {panic}", function.name);
-        sink.explain(Status::Fatal, &message);
+        logger.explain(Status::Fatal, &message);
     }
 }
 

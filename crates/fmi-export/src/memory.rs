@@ -26,7 +26,7 @@ pub unsafe fn array<'a, T>(argument: &'static str, pointer: *const T, length: us
 /// An array that the host wants filled. A null pointer is fine for no elements.
 ///
 /// # Errors
-/// As for [`array`].
+/// As for [`array()`].
 ///
 /// # Safety
 /// Unless null or misaligned, `pointer` points to room for `length` values that nobody else uses during `'a`.

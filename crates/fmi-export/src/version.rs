@@ -8,16 +8,11 @@ use crate::status::Status;
 
 /// The host's end of the log: its callback, and what goes with it.
 pub trait Sink: Clone + fmt::Debug {
-    /// Whether messages of this category are sent even while logging is off.
-    fn always_sent(category: Category) -> bool;
+    /// Whether the host has given a callback.
+    fn has_listener(&self) -> bool;
 
     /// Sends a message.
     fn send(&self, status: Status, category: Category, message: &dyn fmt::Display);
-
-    /// Sends a message that explains `status`.
-    fn explain(&self, status: Status, message: &dyn fmt::Display) {
-        self.send(status, status.category(), message);
-    }
 }
 
 /// A version of the standard, as a type without values.
@@ -35,6 +30,8 @@ pub trait Version: Sized + 'static {
     const TOOL: &'static str;
     /// The attribute that ties a library to its description.
     const IDENTIFIER: &'static str;
+    /// What messages call it.
+    const IDENTIFIER_NAME: &'static str;
     /// The argument by which functions take a saved state.
     const STATE: &'static str;
 

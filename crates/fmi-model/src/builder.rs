@@ -345,6 +345,12 @@ impl<M> Row<'_, M, Real> {
         self
     }
 
+    /// Order of magnitude of each element, by its row-major index from 0.
+    pub fn nominal_by(mut self, nominal: impl Fn(usize) -> f64 + 'static) -> Self {
+        self.kind.nominal = Some(ByElement::By(Box::new(nominal)));
+        self
+    }
+
     /// Infinities and NaN may be set, too: an input that another one says to be of no use at times.
     pub fn any_number(mut self) -> Self {
         self.kind.bounds.any_number = true;

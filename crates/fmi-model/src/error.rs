@@ -134,6 +134,9 @@ pub enum InstanceError {
         /// So many.
         count: usize,
     },
+    /// The model does not take such a step.
+    #[error("the model does not take this step")]
+    StepRefused(#[source] ModelError),
     /// The model could not initialise or step; the instance is in [`Phase::Failed`] now.
     #[error("the model failed, and only a reset or an earlier state helps")]
     Model(#[source] ModelError),

@@ -218,8 +218,8 @@ impl<M: Model> Instance<M> {
     /// Advances from `t` to `t + h`, s.
     ///
     /// # Errors
-    /// [`InstanceError::NotFinite`], [`InstanceError::BadStep`], [`InstanceError::TimeMismatch`] or
-    /// [`InstanceError::Model`].
+    /// [`InstanceError::NotFinite`], [`InstanceError::BadStep`], [`InstanceError::TimeMismatch`],
+    /// [`InstanceError::StepRefused`] or [`InstanceError::Model`].
     pub fn do_step(&mut self, t: f64, h: f64, log: &mut Log<'_>) -> Result<(), InstanceError> {
         finite("communication point", t)?;
         finite("communication step size", h)?;
@@ -232,6 +232,7 @@ impl<M: Model> Instance<M> {
             return Err(InstanceError::TimeMismatch { t, expected });
         }
         let state = &mut self.state;
+        state.model.check_step(t, h).map_err(InstanceError::StepRefused)?;
         if let Err(error) = state.model.do_step(t, h, log) {
             state.phase = Phase::Failed;
             return Err(InstanceError::Model(error));

@@ -43,6 +43,7 @@ impl<T> ByElement<T> {
 pub struct Real {
     pub(crate) unit: Option<ByElement<String>>,
     pub(crate) display_unit: Option<&'static str>,
+    pub(crate) nominal: Option<ByElement<f64>>,
     pub(crate) bounds: Bounds<f64>,
 }
 
@@ -55,6 +56,7 @@ impl Kind for Real {
             access,
             unit: self.unit.map(|unit| unit.over(shape)),
             display_unit: self.display_unit,
+            nominal: self.nominal.map(|nominal| nominal.over(shape)),
             bounds: self.bounds,
         }
     }

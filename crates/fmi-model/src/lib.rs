@@ -35,7 +35,7 @@ pub use model::{Experiment, Model, ModelError, ModelInfo, VendorAnnotation};
 pub use phase::Phase;
 pub use snapshot::{Seal, Snapshot, braced};
 pub use table::Table;
-pub use unit::Unit;
+pub use unit::{Unit, quantity};
 pub use variable::{
     Access, Causality, Each, Entry, EnumerationItem, EnumerationType, Scalar, Shape, Typed, Variability, Variable,
 };

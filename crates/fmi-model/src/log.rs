@@ -42,39 +42,43 @@ impl Category {
         }
     }
 
+    fn bit(self) -> u8 {
+        1 << self as u8
+    }
+
     /// The category with this name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|category| category.name() == name)
     }
 }
 
-/// What a host wants to hear.
+/// What a host wants to hear: nothing while logging is off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Wanted {
-    events: bool,
-    details: bool,
-}
+pub struct Wanted(u8);
 
 impl Wanted {
-    /// Debug messages on or off; with categories, only those named. Status messages are wanted in any case.
+    /// Everything if logging is on; with categories, only those named.
     pub fn new(logging_on: bool, categories: &[Category]) -> Self {
-        let wants = |category| {
-            logging_on
-                && (categories.is_empty() || categories.contains(&category) || categories.contains(&Category::All))
-        };
-        Self {
-            events: wants(Category::Events),
-            details: wants(Category::All),
-        }
+        let all = categories.is_empty() || categories.contains(&Category::All);
+        let wanted = Category::ALL
+            .into_iter()
+            .filter(|category| logging_on && (all || categories.contains(category)));
+        Self(wanted.fold(0, |bits, category| bits | category.bit()))
     }
 
     /// Whether messages of this category are wanted.
     pub fn wants(self, category: Category) -> bool {
-        match category {
-            Category::Events => self.events,
-            Category::All => self.details,
-            _ => true,
-        }
+        self.0 & category.bit() != 0
+    }
+
+    /// The same as a number, to be kept in an atomic.
+    pub fn to_bits(self) -> u8 {
+        self.0
+    }
+
+    /// What [`to_bits`](Self::to_bits) has made a number of.
+    pub fn from_bits(bits: u8) -> Self {
+        Self(bits)
     }
 }
 
@@ -115,7 +119,8 @@ impl<'a> Log<'a> {
         }
     }
 
-    /// Something is not quite right, but the computation goes on: always sent, and the call ends in a warning.
+    /// Something is not quite right, but the computation goes on: sent under `logStatusWarning` while logging is on, and the call ends
+    /// in a warning in any case.
     pub fn warning(&mut self, message: impl fmt::Display) {
         self.warned = true;
         self.tell(Category::StatusWarning, message);
@@ -148,15 +153,27 @@ mod tests {
     use super::*;
 
     #[test]
-    fn categories_choose_among_debug_messages_only() {
+    fn categories_choose_among_messages() {
         let wanted = |on, categories: &[Category]| {
             let wanted = Wanted::new(on, categories);
-            [Category::StatusWarning, Category::Events, Category::All].map(|category| wanted.wants(category))
+            assert_eq!(Wanted::from_bits(wanted.to_bits()), wanted);
+            [
+                Category::StatusWarning,
+                Category::StatusError,
+                Category::Events,
+                Category::All,
+            ]
+            .map(|category| wanted.wants(category))
         };
-        assert_eq!(wanted(false, &[Category::All]), [true, false, false]);
-        assert_eq!(wanted(true, &[]), [true, true, true]);
-        assert_eq!(wanted(true, &[Category::Events]), [true, true, false]);
-        assert_eq!(wanted(true, &[Category::StatusError]), [true, false, false]);
-        assert_eq!(wanted(true, &[Category::All]), [true, true, true]);
+        assert_eq!(wanted(false, &[]), [false; 4]);
+        assert_eq!(wanted(false, &[Category::All]), [false; 4]);
+        assert_eq!(wanted(true, &[]), [true; 4]);
+        assert_eq!(wanted(true, &[Category::All]), [true; 4]);
+        assert_eq!(wanted(true, &[Category::Events]), [false, false, true, false]);
+        assert_eq!(wanted(true, &[Category::StatusError]), [false, true, false, false]);
+        assert_eq!(
+            wanted(true, &[Category::StatusError, Category::StatusWarning]),
+            [true, true, false, false]
+        );
     }
 }

@@ -47,6 +47,15 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
     /// Any error puts the instance into the failed phase; only a reset or an earlier state brings it back.
     fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError>;
 
+    /// Says why a step from `t` to `t + h` (s) cannot be taken, before any is begun: one that is longer than the model can compute
+    /// in reasonable time.
+    ///
+    /// # Errors
+    /// Any error refuses the call, and the instance stays as it was.
+    fn check_step(&self, _t: f64, _h: f64) -> Result<(), ModelError> {
+        Ok(())
+    }
+
     /// Advances from `t` to `t + h` (s, `h > 0`, both finite); `t` agrees with the end of the last step.
     ///
     /// # Errors
@@ -69,7 +78,7 @@ pub struct Experiment {
 }
 
 /// Facts about an FMU that stand in the head of its description. An empty text is left out there.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct ModelInfo {
     /// Name for people, e.g. `fmu-nav`; also the name of the `.fmu` file.
     pub model_name: &'static str,
@@ -92,8 +101,30 @@ pub struct ModelInfo {
     pub default_stop: f64,
     /// Default communication step, s.
     pub default_step: f64,
+    /// Relative tolerance that is asked for by default; a model of fixed steps does not look at it.
+    pub default_tolerance: f64,
     /// What particular tools want to know.
     pub vendor_annotations: Vec<VendorAnnotation>,
+}
+
+impl Default for ModelInfo {
+    /// Nothing said, but for a tolerance of 1e-6.
+    fn default() -> Self {
+        Self {
+            model_name: "",
+            model_identifier: "",
+            description: "",
+            version: "",
+            guid: None,
+            author: "",
+            copyright: "",
+            license: "",
+            default_stop: 0.0,
+            default_step: 0.0,
+            default_tolerance: 1e-6,
+            vendor_annotations: Vec::new(),
+        }
+    }
 }
 
 impl ModelInfo {

@@ -12,6 +12,18 @@ const DISPLAY: [(&str, &str, f64); 2] = [
     ("rad/s", "deg/s", 180.0 / std::f64::consts::PI),
 ];
 
+/// Units of one quantity alone.
+const QUANTITIES: [(&str, &str); 8] = [
+    ("m", "Length"),
+    ("s", "Time"),
+    ("kg", "Mass"),
+    ("m/s", "Velocity"),
+    ("m/s2", "Acceleration"),
+    ("rad", "Angle"),
+    ("rad/s", "AngularVelocity"),
+    ("N", "Force"),
+];
+
 /// A unit in terms of the SI base units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unit {
@@ -61,6 +73,15 @@ impl Unit {
         let own = DISPLAY.into_iter().filter(|(unit, ..)| *unit == self.name);
         own.map(|(_, name, factor)| (name, factor))
     }
+}
+
+/// What is measured in a unit, in the words of the International System of Quantities without spaces; `None` where a unit is that of
+/// several quantities or of none with a name.
+///
+/// * returns: its name and the unit.
+pub fn quantity(unit: &str) -> Option<(&'static str, &'static str)> {
+    let known = QUANTITIES.iter().find(|(of, _)| *of == unit);
+    known.map(|(unit, name)| (*name, *unit))
 }
 
 /// Whether values in `unit` may be displayed in `display`.

@@ -192,6 +192,18 @@ impl<'t, M> Entry<'t, M> {
         }
     }
 
+    /// Order of magnitude of a Real where it is not 1.
+    pub fn nominal(self) -> Option<f64> {
+        match &self.row.typed {
+            Typed::Real { nominal, .. } => nominal
+                .as_ref()?
+                .get(self.element)
+                .copied()
+                .filter(|n| (n - 1.0).abs() > 0.0),
+            _ => None,
+        }
+    }
+
     /// The value now; `None` if it is of another type than `T`.
     pub fn read<T: Scalar>(self, model: &M) -> Option<T> {
         T::access(&self.row.typed).map(|access| access.read(model, self.element))
@@ -237,6 +249,8 @@ pub enum Typed<M> {
         unit: Option<Each<String>>,
         /// Unit for people, e.g. `deg` for `rad`.
         display_unit: Option<&'static str>,
+        /// Order of magnitude, for hosts that scale; 1 where none is said.
+        nominal: Option<Each<f64>>,
         /// Values that may be set; they must be finite, too, unless [`Bounds::any_number`] says otherwise.
         bounds: Bounds<f64>,
     },

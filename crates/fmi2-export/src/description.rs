@@ -1,10 +1,10 @@
 //! `modelDescription.xml` of FMI 2.0: what stands below its first element.
 
 use fmi_export::description::{
-    annotations, default_experiment, initial, known_initially, optional, section, unit_definitions,
+    annotations, default_experiment, initial, known_initially, optional, quantities, section, unit_definitions,
 };
 use fmi_model::{
-    Causality, DefinitionError, Element, Entry, EnumerationType, ModelInfo, Table, Typed, Variable, number,
+    Causality, DefinitionError, Element, Entry, EnumerationType, ModelInfo, Table, Typed, Variable, number, quantity,
 };
 
 /// The children of `<fmiModelDescription>`.
@@ -45,7 +45,17 @@ fn co_simulation(info: &ModelInfo) -> Element {
 }
 
 fn type_definitions<M>(table: &Table<M>) -> Option<Element> {
-    section("TypeDefinitions", table.enumeration_types().map(simple_type))
+    let reals = quantities(table).map(|(name, unit, shown)| {
+        let real = Element::new("Real")
+            .attribute("quantity", name)
+            .attribute("unit", unit)
+            .attribute_if_any("displayUnit", shown);
+        Element::new("SimpleType").attribute("name", name).child(real)
+    });
+    section(
+        "TypeDefinitions",
+        reals.chain(table.enumeration_types().map(simple_type)),
+    )
 }
 
 fn simple_type(declared: &EnumerationType) -> Element {
@@ -90,10 +100,15 @@ fn type_element<M>(entry: Entry<'_, M>) -> Element {
             bounds,
             ..
         } => element
+            .attribute_if_any(
+                "declaredType",
+                entry.unit().and_then(quantity).map_or("", |(name, _)| name),
+            )
             .attribute_if_any("unit", entry.unit().unwrap_or_default())
             .attribute_if_any("displayUnit", display_unit.unwrap_or_default())
             .attribute_if_any("min", &optional(bounds.declared_min(), number))
             .attribute_if_any("max", &optional(bounds.max, number))
+            .attribute_if_any("nominal", &optional(entry.nominal(), number))
             .attribute_if_any("start", &optional(access.start(k).copied(), number)),
         Typed::Integer { access, bounds } => element
             .attribute_if_any("min", &optional(bounds.declared_min(), |v| v.to_string()))

@@ -17,19 +17,20 @@ pub struct Sink {
 }
 
 impl Sink {
-    /// A sink for messages of `instance_name`; keeps a copy of what it needs from `callbacks`.
-    pub(crate) fn new(callbacks: &Fmi2CallbackFunctions, instance_name: &CStr) -> Self {
+    /// A sink for messages of `instance_name`; keeps a copy of what it needs from `callbacks`. Without callbacks nobody hears
+    /// anything.
+    pub(crate) fn new(callbacks: Option<&Fmi2CallbackFunctions>, instance_name: &CStr) -> Self {
         Self {
-            callback: callbacks.logger,
-            environment: callbacks.component_environment,
+            callback: callbacks.and_then(|callbacks| callbacks.logger),
+            environment: callbacks.map_or(std::ptr::null_mut(), |callbacks| callbacks.component_environment),
             instance_name: instance_name.to_owned(),
         }
     }
 }
 
 impl fmi_export::Sink for Sink {
-    fn always_sent(category: Category) -> bool {
-        !matches!(category, Category::Events | Category::All)
+    fn has_listener(&self) -> bool {
+        self.callback.is_some()
     }
 
     fn send(&self, status: Status, category: Category, message: &dyn fmt::Display) {
@@ -52,7 +53,18 @@ impl fmi_export::Sink for Sink {
     }
 }
 
-/// A finished message as a `printf` format that prints itself: `%` is doubled, a NUL becomes U+FFFD.
+/// A finished message as a `printf` format that prints itself: `%` is doubled, and so is `#`, which begins the
+/// name of a variable; a NUL becomes U+FFFD.
 fn for_printf(message: &str) -> CString {
-    CString::new(message.replace('%', "%%").replace('\0', "\u{fffd}")).unwrap_or_default()
+    CString::new(message.replace('%', "%%").replace('#', "##").replace('\0', "\u{fffd}")).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_finished_message_prints_itself() {
+        assert_eq!(&*for_printf("50 % of #3\0"), c"50 %% of ##3\u{fffd}");
+    }
 }

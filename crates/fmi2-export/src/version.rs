@@ -19,6 +19,7 @@ impl Version for Fmi2 {
     const PREFIX: &'static str = "fmi2";
     const TOOL: &'static str = env!("CARGO_PKG_NAME");
     const IDENTIFIER: &'static str = "guid";
+    const IDENTIFIER_NAME: &'static str = "GUID";
     const STATE: &'static str = "FMUstate";
 
     fn document<M>(info: &ModelInfo, table: &Table<M>, identifier: &str) -> Result<Element, DefinitionError> {

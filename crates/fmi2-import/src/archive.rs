@@ -53,14 +53,16 @@ impl Archive {
     fn check_entries(&mut self) -> Result<(), ImportError> {
         for i in 0..self.zip.len() {
             let entry = self.zip.by_index_raw(i).map_err(|e| not_an_archive(&self.path, &e))?;
-            let reason = if entry.enclosed_name().is_none() {
-                "points outside the archive"
-            } else if entry.is_symlink() {
-                "is a symbolic link"
-            } else {
-                continue;
+            let name = String::from_utf8_lossy(entry.name_raw()).into_owned();
+            let reason = match inside(&name) {
+                _ if entry.is_symlink() => "is a symbolic link",
+                None => "points outside the archive",
+                Some(path) if needed(&path) && !path.iter().all(writable) => {
+                    "cannot be written, since file names of this system hold none of <>:\"|?*, end in no dot or blank and are no device"
+                }
+                Some(_) => continue,
             };
-            let entry = String::from_utf8_lossy(entry.name_raw()).into_owned();
+            let entry = name;
             return Err(ImportError::UnsafeEntry {
                 path: self.path.clone(),
                 entry,
@@ -133,7 +135,9 @@ impl Archive {
         for i in 0..self.zip.len() {
             let entry = self.zip.by_index(i).map_err(|e| not_an_archive(&self.path, &e))?;
             // `check_entries` has refused archives where this is None.
-            let Some(name) = entry.enclosed_name() else { continue };
+            let Some(name) = inside(&String::from_utf8_lossy(entry.name_raw())) else {
+                continue;
+            };
             if !needed(&name) {
                 continue;
             }
@@ -157,6 +161,58 @@ impl Archive {
     }
 }
 
+/// The path of an entry below the folder that it is unpacked to; `None` if it leads out of it.
+///
+/// Both slashes separate, since some tools write the wrong one. Colons and other characters that some systems refuse stay.
+fn inside(name: &str) -> Option<PathBuf> {
+    let mut path = PathBuf::new();
+    let absolute = name.starts_with(['/', '\\']) || (name.get(1..3) == Some(":\\") || name.get(1..3) == Some(":/"));
+    if absolute || name.contains('\0') {
+        return None;
+    }
+    for part in name.split(['/', '\\']) {
+        match part {
+            "" | "." => {}
+            ".." => {
+                if !path.pop() {
+                    return None;
+                }
+            }
+            // A drive of Windows would make a path of its own.
+            _ if cfg!(windows) && path.as_os_str().is_empty() && part.contains(':') => return None,
+            _ => path.push(part),
+        }
+    }
+    Some(path)
+}
+
+/// Whether the system can have a file of this name.
+#[cfg(not(windows))]
+fn writable(_part: &std::ffi::OsStr) -> bool {
+    true
+}
+
+#[cfg(windows)]
+fn writable(part: &std::ffi::OsStr) -> bool {
+    const DEVICES: [&str; 4] = ["CON", "PRN", "AUX", "NUL"];
+    let part = part.to_string_lossy();
+    let stem = part
+        .split('.')
+        .next()
+        .unwrap_or_default()
+        .trim_end()
+        .to_ascii_uppercase();
+    let numbered = |name: &str| {
+        let number = stem.strip_prefix(name);
+        number.is_some_and(|n| n.len() == 1 && n.bytes().all(|b| b.is_ascii_digit()))
+    };
+    !part.contains(|c: char| c.is_control() || "<>:\"|?*".contains(c))
+        && !part.ends_with(['.', ' '])
+        && !DEVICES.contains(&stem.as_str())
+        && !numbered("COM")
+        && !numbered("LPT")
+}
+
 fn needed(entry: &Path) -> bool {
     if entry.starts_with("binaries") {
         return entry.starts_with(Path::new("binaries").join(PLATFORM));
@@ -168,5 +224,45 @@ fn not_an_archive(path: &Path, error: &ZipError) -> ImportError {
     ImportError::NotAnArchive {
         path: path.to_owned(),
         reason: error.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_stay_inside_or_are_refused() {
+        for (name, path) in [
+            ("resources/level.txt", Some("resources/level.txt")),
+            ("resources\\level.txt", Some("resources/level.txt")),
+            ("./a//b/", Some("a/b")),
+            ("a/../b", Some("b")),
+            ("resources/12:30:00.csv", Some("resources/12:30:00.csv")),
+            ("../a", None),
+            ("a/../../b", None),
+            ("a\\..\\..\\b", None),
+            ("/etc/passwd", None),
+            ("\\\\host\\share", None),
+            ("C:/a", None),
+            ("C:\\a", None),
+            ("a\0b", None),
+            ("..", None),
+            ("./", Some("")),
+            ("a/..", Some("")),
+        ] {
+            assert_eq!(inside(name).as_deref(), path.map(Path::new), "{name:?}");
+        }
+        #[cfg(not(windows))]
+        assert_eq!(inside("a:b"), Some("a:b".into()));
+    }
+
+    #[cfg(windows)]
+    #[test]
+    fn names_that_windows_cannot_have_are_told() {
+        for name in ["a:b", "a?", "a.", "a ", "nul", "COM1.txt", "a\u{1}"] {
+            assert!(!writable(name.as_ref()), "{name:?}");
+        }
+        assert!(["a b", "console", "a.b"].iter().all(|name| writable(name.as_ref())));
     }
 }

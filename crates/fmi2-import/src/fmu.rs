@@ -74,7 +74,11 @@ impl Fmu {
         self.binary().map(drop)
     }
 
-    /// Creates an instance called `name`; `logging_on` asks the FMU to log more than errors.
+    /// Creates an instance called `name`.
+    ///
+    /// With `logging_on` it logs all it has to say. Without, it is asked for warnings and the reasons of failed calls if it has
+    /// the standard's categories for them, and one that refuses to be made and does not say why is asked once more with its
+    /// log on.
     ///
     /// # Errors
     /// Those of [`Fmu::load`], [`ImportError::NulInText`], [`ImportError::OnlyOnce`] or [`ImportError::Instantiate`]

@@ -11,6 +11,7 @@ use tempfile::TempDir;
 use crate::ImportError;
 use crate::archive::Archive;
 use crate::description::CoSimulation;
+use crate::guard::{self, BeforeLoading, Watch};
 use crate::logger::text;
 use crate::platform::{LIBRARY_SUFFIX, PLATFORM};
 
@@ -66,10 +67,13 @@ pub(crate) struct Binary {
     pub(crate) functions: Functions,
     /// `file:` URI of the unpacked `resources` folder.
     pub(crate) resources: String,
+    /// What was unusual about loading it.
+    pub(crate) warnings: Vec<String>,
     /// Instances alive.
     pub(crate) alive: AtomicUsize,
     /// Set when an instance ended in a way that makes unloading unsafe.
     pub(crate) keep_loaded: AtomicBool,
+    before_loading: BeforeLoading,
     loaded: ManuallyDrop<Library>,
     // Dropped after the library: an open library cannot be deleted everywhere.
     _folder: TempDir,
@@ -79,7 +83,8 @@ impl Drop for Binary {
     fn drop(&mut self) {
         if !self.keep_loaded.load(Ordering::Relaxed) {
             // SAFETY: the field is not used again, and no instance is left that could call into the library.
-            unsafe { ManuallyDrop::drop(&mut self.loaded) };
+            guard::around(Watch::Whole, || unsafe { ManuallyDrop::drop(&mut self.loaded) });
+            self.before_loading.after_unloading();
         }
     }
 }
@@ -102,8 +107,9 @@ impl Binary {
         }
         let folder = archive.unpack()?;
         let file: PathBuf = folder.path().join(&entry);
-        // SAFETY: loading runs the initializers of a library that the user asked for by path.
-        let library = unsafe { open(&file) }.map_err(|e| ImportError::Load {
+        let before_loading = BeforeLoading::now();
+        let mut warnings = Vec::new();
+        let library = open_with_help(&file, &entry, &mut warnings).map_err(|e| ImportError::Load {
             path: path.to_owned(),
             library: entry.clone(),
             reason: loader_text(&e),
@@ -119,12 +125,79 @@ impl Binary {
         Ok(Self {
             functions,
             resources: file_uri(&folder.path().join("resources")),
+            warnings,
             alive: AtomicUsize::new(0),
             keep_loaded: AtomicBool::new(false),
+            before_loading,
             loaded: ManuallyDrop::new(library),
             _folder: folder,
         })
     }
+}
+
+/// Libraries of the system that an FMU may use without saying so: builders forget `-lm`, and older C libraries had parts that are
+/// one with newer ones.
+#[cfg(target_os = "linux")]
+const FORGOTTEN: [&str; 7] = [
+    "libm.so.6",
+    "libpthread.so.0",
+    "libdl.so.2",
+    "librt.so.1",
+    "libstdc++.so.6",
+    "libgfortran.so.5",
+    "libgomp.so.1",
+];
+#[cfg(not(target_os = "linux"))]
+const FORGOTTEN: [&str; 0] = [];
+
+/// Loads a library; if it uses a function that none of the libraries it names has, after those that are often forgotten.
+///
+/// * `entry`: what to call it in `warnings`.
+fn open_with_help(file: &Path, entry: &str, warnings: &mut Vec<String>) -> Result<Library, libloading::Error> {
+    // SAFETY: loading runs the initializers of a library that the user asked for by path.
+    let attempt = || guard::around(Watch::Whole, || unsafe { open(file) });
+    let mut result = attempt();
+    // Each helper ends one complaint.
+    for _ in FORGOTTEN {
+        let Err(error) = &result else { break };
+        let text = loader_text(error);
+        let Some(symbol) = undefined_symbol(&text) else { break };
+        let Some(helper) = FORGOTTEN.into_iter().find(|library| has(library, symbol)) else {
+            break;
+        };
+        warnings.push(format!(
+            "{entry} uses {symbol} without naming {helper}, which was loaded for it: link the FMU with that library"
+        ));
+        result = attempt();
+    }
+    result
+}
+
+/// The symbol that the loader has missed, if that is what it complains of.
+fn undefined_symbol(complaint: &str) -> Option<&str> {
+    let (_, symbol) = complaint.split_once("undefined symbol: ")?;
+    let end = symbol.find([',', ' ', '(']).unwrap_or(symbol.len());
+    Some(&symbol[..end])
+}
+
+/// Whether a library of the system has a symbol; from then on all libraries find it.
+#[cfg(unix)]
+fn has(library: &str, symbol: &str) -> bool {
+    use libloading::os::unix::{Library as Unix, RTLD_GLOBAL, RTLD_LOCAL, RTLD_NOW};
+    // SAFETY: libraries of the system have no initializers that ask anything of their user.
+    let open = |visible| unsafe { Unix::open(Some(library), RTLD_NOW | visible) };
+    let Ok(loaded) = open(RTLD_LOCAL) else { return false };
+    // SAFETY: the symbol is looked for, not used.
+    if unsafe { loaded.get::<*const ()>(symbol) }.is_err() {
+        return false;
+    }
+    // Kept for as long as the process lives: the FMU uses it without the loader knowing.
+    open(RTLD_GLOBAL).map(std::mem::forget).is_ok()
+}
+
+#[cfg(not(unix))]
+fn has(_library: &str, _symbol: &str) -> bool {
+    false
 }
 
 /// Loads a library with all its symbols resolved at once: a missing one is an error here rather than an abort later.
@@ -178,7 +251,7 @@ impl Symbols<'_> {
     fn check_answer(&self, function: &'static str, expected: &'static str) -> Result<(), ImportError> {
         let inquiry: f::GetVersion = self.get(function)?;
         // SAFETY: the inquiries have no preconditions and answer with a static C string.
-        let found = unsafe { text(inquiry()) };
+        let found = guard::around(Watch::Whole, || unsafe { text(inquiry()) });
         if found == expected {
             return Ok(());
         }
@@ -251,6 +324,18 @@ fn file_uri(path: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_missing_symbol_is_read_from_the_loaders_words() {
+        for (complaint, symbol) in [
+            ("/tmp/a b/tank.so: undefined symbol: cos", Some("cos")),
+            ("tank.so: undefined symbol: j0 (tank.so)", Some("j0")),
+            ("tank.so: undefined symbol: cos, version GLIBC_2.2.5", Some("cos")),
+            ("tank.so: file too short", None),
+        ] {
+            assert_eq!(undefined_symbol(complaint), symbol);
+        }
+    }
 
     #[test]
     fn file_uris_escape_what_uris_cannot_hold() {

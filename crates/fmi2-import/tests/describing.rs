@@ -259,3 +259,62 @@ fn unknown_names_are_answered_with_the_nearest() {
     }
     assert_eq!(suggest("temperature", ["gate", "label"]), None, "too far off to help");
 }
+
+/// The same description in the encodings that tools write, each byte put down by hand.
+#[test]
+fn a_description_is_read_in_the_encoding_it_declares() {
+    let xml = |encoding: &str| {
+        format!(
+            "<?xml version='1.0'{encoding}?>\n<fmiModelDescription fmiVersion='2.0' modelName='Beh\u{e4}lter' guid='g'>\
+             <CoSimulation modelIdentifier='m'/><ModelVariables/></fmiModelDescription>"
+        )
+    };
+    let read = |bytes: &[u8]| ModelDescription::parse(bytes, "m.xml".as_ref());
+    let narrow = |text: &str, euro: u8| -> Vec<u8> {
+        let byte = |c| match c {
+            '\u{e4}' => 0xe4,
+            '\u{20ac}' => euro,
+            c => u8::try_from(c).unwrap(),
+        };
+        text.chars().map(byte).collect()
+    };
+    let wide = |text: &str, unit: fn(u16) -> [u8; 2]| text.encode_utf16().flat_map(unit).collect::<Vec<u8>>();
+    let marked = |mark: &[u8], bytes: Vec<u8>| [mark.to_vec(), bytes].concat();
+    let utf16 = xml(" encoding='UTF-16'");
+    for (what, bytes) in [
+        ("UTF-8, not said", xml("").into_bytes()),
+        ("UTF-8", xml(" encoding = \"utf-8\" standalone='yes'").into_bytes()),
+        ("UTF-8 with mark", marked(&[0xef, 0xbb, 0xbf], xml("").into_bytes())),
+        ("UTF-8, said to be UTF-16", utf16.clone().into_bytes()),
+        ("Latin 1", narrow(&xml(" encoding='ISO-8859-1'"), 0)),
+        ("Windows", narrow(&xml(" encoding='windows-1252'"), 0x80)),
+        ("UTF-16 LE", marked(&[0xff, 0xfe], wide(&utf16, u16::to_le_bytes))),
+        ("UTF-16 BE", marked(&[0xfe, 0xff], wide(&utf16, u16::to_be_bytes))),
+        ("UTF-16 LE without mark", wide(&utf16, u16::to_le_bytes)),
+        ("UTF-16 BE without mark", wide(&utf16, u16::to_be_bytes)),
+    ] {
+        assert_eq!(read(&bytes).unwrap().model_name, "Beh\u{e4}lter", "{what}");
+    }
+    // Only one of the two has a euro.
+    let euro = xml(" encoding='windows-1252'").replace("Beh\u{e4}lter", "\u{20ac}");
+    assert_eq!(read(&narrow(&euro, 0x80)).unwrap().model_name, "\u{20ac}");
+
+    for (bytes, reason) in [
+        (narrow(&xml(""), 0), "line 2, column 53: not UTF-8"),
+        (
+            xml(" encoding='EBCDIC-9'").into_bytes(),
+            "the encoding \"EBCDIC-9\" is not known",
+        ),
+        (marked(&[0xff, 0xfe], vec![0x00, 0xd8]), "the bytes are not UTF-16LE"),
+        (vec![], "line 1"),
+    ] {
+        let error = read(&bytes).unwrap_err().to_string();
+        assert!(error.contains(reason), "{error}");
+    }
+    // Where something is wrong is told in the text, whatever the bytes were.
+    let wrong = utf16.replace("guid='g'", "");
+    let error = read(&marked(&[0xff, 0xfe], wide(&wrong, u16::to_le_bytes)))
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("line 2") && error.contains("guid"), "{error}");
+}

@@ -247,3 +247,60 @@ fn an_archive_that_cannot_be_unpacked_says_where() {
         "{error}"
     );
 }
+
+#[test]
+fn names_with_colons_are_unpacked_where_the_system_has_such_files() {
+    let shop = Workshop::new();
+    let Some(library) = shop.compile(&[]) else { return };
+    let library_entry = format!("binaries/{PLATFORM}/tank.{LIBRARY_SUFFIX}");
+    let description = tank_description("");
+    let path = shop.zip(
+        "colons.fmu",
+        &[
+            ("modelDescription.xml", description.as_bytes()),
+            (&library_entry, &library),
+            ("resources/level.txt", b"0.5"),
+            ("resources/2026-01-01T12:30:00.csv", b"1"),
+            ("resources\\deep\\what?.txt", b"2"),
+        ],
+    );
+    if cfg!(windows) {
+        let error = refusal(path);
+        assert!(error.to_string().contains("cannot be written"), "{error}");
+        return;
+    }
+    let mut instance = Fmu::open(path).unwrap().instantiate("t1", false).unwrap();
+    let resources = instance.get_string(&[1]).unwrap().remove(0);
+    for (name, text) in [("2026-01-01T12:30:00.csv", "1"), ("deep/what?.txt", "2")] {
+        let file = std::path::Path::new(&resources).join(name);
+        assert_eq!(std::fs::read_to_string(file).unwrap(), text, "{name}");
+    }
+}
+
+/// Built with a function of libm and without naming libm: found by the loader where this program has the library itself.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_library_that_was_forgotten_is_loaded_and_told() {
+    let shop = Workshop::new();
+    let linked = std::fs::read_to_string("/proc/self/maps").unwrap().contains("/libm");
+    for (symbol, helper) in [("__gfortran_nowhere", None), ("cos", Some("libm.so.6"))] {
+        let uses = format!("FORGETS={symbol}");
+        let Some(library) = shop.compile(&[&uses]) else { return };
+        let fmu = Fmu::open(shop.fmu("forgets.fmu", &tank_description(""), &library)).unwrap();
+        match (fmu.instantiate("t1", false), helper) {
+            (Err(error), None) => {
+                let text = error.to_string();
+                assert!(text.contains("cannot load") && text.contains(symbol), "{text}");
+            }
+            (Ok(instance), Some(helper)) => {
+                let messages: Vec<String> = instance.messages().iter().map(ToString::to_string).collect();
+                let told = format!(
+                    "fmi2Warning [loader] binaries/{PLATFORM}/tank.so uses {symbol} without naming {helper}, which was loaded for it: \
+                     link the FMU with that library"
+                );
+                assert_eq!(messages, if linked { vec![] } else { vec![told] });
+            }
+            (answer, _) => panic!("{symbol}: {answer:?}"),
+        }
+    }
+}

@@ -1,11 +1,11 @@
 //! `modelDescription.xml` of FMI 3.0: what stands below its first element. A row is one variable, whatever its shape.
 
 use fmi_export::description::{
-    annotations, default_experiment, initial, known_initially, optional, section, unit_definitions,
+    annotations, default_experiment, initial, known_initially, optional, quantities, section, unit_definitions,
 };
 use fmi_model::{
     Access, Causality, DefinitionError, Each, Element, EnumerationType, ModelInfo, Scalar, Shape, Table, Typed,
-    Variable, number,
+    Variable, number, quantity,
 };
 
 use crate::rows::{TIME, type_name};
@@ -29,7 +29,7 @@ pub(crate) fn sections<M>(
     let sections = [
         Some(co_simulation(info)),
         unit_definitions(table, &[SECOND]),
-        section("TypeDefinitions", table.enumeration_types().map(enumeration_type)),
+        section("TypeDefinitions", types(table)),
         Some(log_categories),
         Some(default_experiment(info)),
         Some(model_variables(table)),
@@ -55,6 +55,18 @@ fn co_simulation(info: &ModelInfo) -> Element {
         .attribute("mightReturnEarlyFromDoStep", "false")
         .attribute("canReturnEarlyAfterIntermediateUpdate", "false")
         .attribute("hasEventMode", "false")
+}
+
+/// A type for each quantity, then those of the enumerations.
+fn types<M>(table: &Table<M>) -> impl Iterator<Item = Element> {
+    let reals = quantities(table).map(|(name, unit, shown)| {
+        Element::new("Float64Type")
+            .attribute("name", name)
+            .attribute("quantity", name)
+            .attribute("unit", unit)
+            .attribute_if_any("displayUnit", shown)
+    });
+    reals.chain(table.enumeration_types().map(enumeration_type))
 }
 
 fn enumeration_type(declared: &EnumerationType) -> Element {
@@ -104,15 +116,26 @@ fn typed<M>(element: Element, row: &Variable<M>) -> Element {
             access,
             unit,
             display_unit,
+            nominal,
             bounds,
         } => {
             // An array has one unit, and where its elements have several the description says which.
             let unit = unit.as_ref().and_then(Each::shared);
+            let shared = nominal
+                .as_ref()
+                .and_then(Each::shared)
+                .copied()
+                .filter(|n| (n - 1.0).abs() > 0.0);
             element
+                .attribute_if_any(
+                    "declaredType",
+                    unit.and_then(|unit| quantity(unit)).map_or("", |(name, _)| name),
+                )
                 .attribute_if_any("unit", unit.map_or("", String::as_str))
                 .attribute_if_any("displayUnit", unit.and(*display_unit).unwrap_or_default())
                 .attribute_if_any("min", &optional(bounds.declared_min(), number))
                 .attribute_if_any("max", &optional(bounds.max, number))
+                .attribute_if_any("nominal", &optional(shared, number))
                 .attribute_if_any("start", &starts(row.shape, access, |v| number(*v)))
         }
         Typed::Integer { access, bounds } => element
@@ -243,7 +266,24 @@ fn model_structure<M>(table: &Table<M>) -> Element {
 
 #[cfg(test)]
 mod tests {
+    use fmi_model::TableBuilder;
+
     use super::*;
+
+    #[test]
+    fn a_row_without_elements_is_no_variable() {
+        let mut t = TableBuilder::<f64>::new();
+        t.real("none").output().vector(0, |_, _| 0.0);
+        t.real("x").output().get(|m| *m);
+        let table = t.build();
+        let variables = model_variables(&table).to_document();
+        assert!(!variables.contains("none"), "{variables}");
+        for (name, reference) in [("x", 1), (TIME, 2)] {
+            let begin = format!("<Float64 name=\"{name}\" valueReference=\"{reference}\"");
+            assert!(variables.contains(&begin), "{variables}");
+        }
+        assert!(!model_structure(&table).to_document().contains("valueReference=\"0\""));
+    }
 
     #[test]
     fn elements_that_agree_are_named_as_blocks() {

@@ -7,7 +7,7 @@
 ///
 /// - Every call runs under one panic guard. After a panic the instance answers `fmi3Fatal` and can only be freed.
 /// - A refused call (out of order, unknown or unfit variable, wrong number of values, value out of bounds, times that do not fit) ends
-///   in `fmi3Error`, tells the logger why, changes nothing, and leaves the instance usable.
+///   in `fmi3Error`, tells the logger why if logging is on, changes nothing, and leaves the instance usable.
 /// - An error of the model while it initialises or steps ends in `fmi3Error`; variables can then still be read, and
 ///   `fmi3Reset` or `fmi3SetFMUState` bring the instance back.
 /// - Calls on one instance must not overlap; those that do are refused. Instances are independent of each other.

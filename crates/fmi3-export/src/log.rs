@@ -22,9 +22,8 @@ impl Sink {
 }
 
 impl fmi_export::Sink for Sink {
-    /// Where logging is off, nothing but the reasons of errors is to be heard.
-    fn always_sent(category: Category) -> bool {
-        matches!(category, Category::StatusError | Category::StatusFatal)
+    fn has_listener(&self) -> bool {
+        self.callback.is_some()
     }
 
     fn send(&self, status: Status, category: Category, message: &dyn fmt::Display) {

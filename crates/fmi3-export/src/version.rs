@@ -19,6 +19,7 @@ impl Version for Fmi3 {
     const PREFIX: &'static str = "fmi3";
     const TOOL: &'static str = env!("CARGO_PKG_NAME");
     const IDENTIFIER: &'static str = "instantiationToken";
+    const IDENTIFIER_NAME: &'static str = "instantiation token";
     const STATE: &'static str = "FMUState";
 
     fn document<M>(info: &ModelInfo, table: &Table<M>, identifier: &str) -> Result<Element, DefinitionError> {

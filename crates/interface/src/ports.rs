@@ -108,6 +108,38 @@ impl Port {
         self.pick(self.about, element)
     }
 
+    /// Order of magnitude of an element, SI: of a distance between the vehicles 1 km, of one from a planet 10,000 km, of what is not
+    /// known of both a ten-thousandth of the former.
+    pub fn nominal(&self, element: usize) -> f64 {
+        let name = self.name;
+        let state = matches!(name, "nav_init.x" | "cov.sigma").then_some(element / 3);
+        let absolute = name.ends_with(".r_c_n") || name.ends_with(".v_c_n") || matches!(state, Some(3 | 4));
+        let unsure = ["cov.", "pred.sigma", "innov."]
+            .iter()
+            .any(|begin| name.starts_with(begin));
+        let size = match (self.unit(element), absolute) {
+            ("m", true) => 1e7,
+            ("m", false) if name == "target_orbit.r" => 1e7,
+            ("m", false) => 1e3,
+            ("m/s", true) => 1e4,
+            ("m2/s", _) if name == "target_orbit.h" => 5e10,
+            ("m/s2", _) => 1e-5,
+            ("m/s^2.5", _) => 1e-6,
+            ("rad", _) => 0.1,
+            ("rad/s", _) => 1e-3,
+            ("s", _) => 1e3,
+            // Variances and covariances, by what their units are made of.
+            ("m2", _) => return 1e-2,
+            ("m2/s", _) => return 1e-5,
+            ("m2/s2", _) => return 1e-8,
+            ("m2/s3", _) => return 1e-10,
+            ("m2/s4", _) => return 1e-12,
+            ("rad2", _) => return 1e-7,
+            _ => 1.0,
+        };
+        if unsure { size * 1e-4 } else { size }
+    }
+
     /// Whether it may hold anything, NaN included, while another port says that it is not valid.
     pub fn at_times_invalid(&self) -> bool {
         matches!(self.part, Some((_, Part::Measured(_)))) || self.name == "accelerometer.alpha_c_bc"

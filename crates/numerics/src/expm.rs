@@ -2,6 +2,8 @@
 
 use nalgebra::SMatrix;
 
+use crate::math;
+
 /// exp(`a`) by scaling, a Taylor series summed to rounding, and squaring.
 ///
 /// Meant for `a = A dt` of an estimator: small, so the series ends after a handful of terms and nothing is inverted, and
@@ -16,7 +18,7 @@ pub fn expm<const N: usize>(a: &SMatrix<f64, N, N>) -> SMatrix<f64, N, N> {
     }
     // A norm of 2 costs a few more terms and saves the squarings of the usual dt = 1 s.
     let squarings = if norm > 2.0 {
-        (norm / 2.0).log2().ceil() as i32
+        math::log2(norm / 2.0).ceil() as i32
     } else {
         0
     };

@@ -1,6 +1,7 @@
 //! Three-axis accelerometer with a bias that walks as a first-order Gauss-Markov process.
 
 use nalgebra::{Matrix3, Vector3};
+use numerics::math;
 
 /// Reading of the accelerometer.
 ///
@@ -28,7 +29,7 @@ pub fn reading(
 ///
 /// Source: Mamich and Zanetti, Sec. IV (a Gauss-Markov bias whose discrete noise is given per 1 s step).
 pub fn bias_step(b_c_bc: &Vector3<f64>, dt: f64, time_constant: f64, sigma: f64, w: &Vector3<f64>) -> Vector3<f64> {
-    b_c_bc * (-dt / time_constant).exp() + w * (sigma * dt.sqrt())
+    b_c_bc * math::exp(-dt / time_constant) + w * (sigma * dt.sqrt())
 }
 
 #[cfg(test)]

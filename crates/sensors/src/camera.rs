@@ -1,5 +1,7 @@
 //! Camera: two angles to the target, in the axes L of the LiDAR ([`crate::lidar`]).
 
+use numerics::math;
+
 use crate::of_target::{ByState, OfTarget, Rows, Scene};
 use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};
 
@@ -23,7 +25,7 @@ impl OfTarget for Camera {
 ///
 /// Source: Mamich and Zanetti, Eq. (9).
 pub fn measure(rho_l: &Vector3<f64>) -> Vector2<f64> {
-    Vector2::new((rho_l.x / rho_l.z).atan(), (rho_l.y / rho_l.z).atan())
+    Vector2::new(math::atan(rho_l.x / rho_l.z), math::atan(rho_l.y / rho_l.z))
 }
 
 /// Derivative of [`measure`] by the relative position in axes N.

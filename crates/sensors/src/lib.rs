@@ -3,6 +3,8 @@
 //! Pure functions: the simulated world and the filters both call them and share nothing else. When a sample is taken, drops
 //! out or is an outlier is told by `truth`. Start reading at [`lidar`].
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod accelerometer;
 pub mod camera;
 pub mod lidar;

@@ -1,6 +1,7 @@
 //! The field of view of a sensor that looks along its boresight.
 
 use nalgebra::Vector3;
+use numerics::math;
 use serde::{Deserialize, Serialize};
 
 /// A square field of view in front of a sensor.
@@ -14,7 +15,7 @@ impl View {
     /// * `width`: full width in azimuth and in elevation, rad, within (0, pi).
     pub fn of_width(width: f64) -> Self {
         Self {
-            reach: (0.5 * width).tan(),
+            reach: math::tan(0.5 * width),
         }
     }
 

@@ -59,6 +59,18 @@ pub struct RunReport {
     pub truth_time: SlaveTime,
     /// Time each filter took.
     pub filter_times: Vec<SlaveTime>,
+    /// What the FMUs have logged, each message once with its count.
+    pub messages: Vec<String>,
+}
+
+/// What slaves have logged since the last time, by name.
+fn messages(system: &mut System, slaves: impl IntoIterator<Item = SlaveId>) -> Vec<String> {
+    let mut all = Vec::new();
+    for slave in slaves {
+        let own = system.messages(slave);
+        all.extend(own.into_iter().map(|text| format!("{}: {text}", system.name(slave))));
+    }
+    all
 }
 
 /// Every filter of a run, and how far it has come.
@@ -228,7 +240,7 @@ pub fn seat(system: &mut System, participant: &Participant, seed: i32, run: u32)
 
 /// Couples everything and goes through initialization once, so that a bad setting shows before the first run.
 ///
-/// * returns: what a user should know: inputs of the filters that nothing feeds.
+/// * returns: what a user should know: inputs of the filters that nothing feeds, and what the FMUs have logged.
 ///
 /// # Errors
 /// Whatever a slave or the wiring refuses.
@@ -262,6 +274,10 @@ pub fn rehearse(spec: &Spec) -> Result<Vec<String>, StudyError> {
             source: Box::new(refused.error),
         });
     }
+    let logged = messages(
+        &mut coupled.system,
+        std::iter::once(coupled.truth).chain(seats.iter().copied()),
+    );
     let open = coupled
         .system
         .unconnected_inputs()
@@ -274,7 +290,7 @@ pub fn rehearse(spec: &Spec) -> Result<Vec<String>, StudyError> {
         let label = coupled.system.name(*filter);
         (!names.is_empty()).then(|| format!("{label} says no unit of {}: taken as SI", names.join(", ")))
     });
-    Ok(told.chain(unsaid).collect())
+    Ok(told.chain(unsaid).chain(logged).collect())
 }
 
 /// Time of one `fmi2DoStep` of a filter that has no new sample: the cost of crossing the interface, s.
@@ -329,6 +345,7 @@ pub fn run_recorded(
         steps: 0,
         truth_time: SlaveTime::default(),
         filter_times: Vec::new(),
+        messages: Vec::new(),
     };
     for filter in 0..spec.filters.len() {
         let of_world = |count, values: &[f64]| measured(filter, count, values);
@@ -340,6 +357,11 @@ pub fn run_recorded(
         whole.truth_time.step += own.truth_time.step;
         whole.truth_time.exchange += own.truth_time.exchange;
         whole.filter_times.extend(own.filter_times);
+        for text in own.messages {
+            if !whole.messages.contains(&text) {
+                whole.messages.push(text);
+            }
+        }
     }
     whole
 }
@@ -357,6 +379,7 @@ fn run_world(
         steps: 0,
         truth_time: SlaveTime::default(),
         filter_times: vec![SlaveTime::default(); spec.filters.len()],
+        messages: Vec::new(),
     };
     let coupled = couple(spec, run).and_then(|coupled| {
         let recorder = (!names.is_empty()).then(|| MeasurementReader::new(&coupled.system, coupled.truth, names));
@@ -368,7 +391,7 @@ fn run_world(
             truth,
             mut truth_reader,
             mut seats,
-            drivers: _,
+            drivers,
         },
         mut recorder,
     ) = match coupled {
@@ -433,6 +456,8 @@ fn run_world(
         ControlFlow::Continue(())
     });
 
+    let seated = seats.iter().flatten().map(|seat| seat.id);
+    report.messages = messages(&mut system, std::iter::once(truth).chain(seated).chain(drivers));
     match outcome {
         Err(error) => fail_all(&mut report.endings, None, &chain(&error)),
         Ok(outcome) => {

@@ -14,6 +14,8 @@
 //! # Ok::<(), truth::TruthError>(())
 //! ```
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod attitude;
 mod axes;
 mod disturbances;

@@ -235,6 +235,14 @@ impl Simulation {
         finite(&self.now.state, t)
     }
 
+    /// Whether [`advance_to`](Self::advance_to) goes as far as `t`, s.
+    ///
+    /// # Errors
+    /// When `t` lies before the present or absurdly far ahead.
+    pub fn check_end(&self, t: f64) -> Result<(), TruthError> {
+        self.checked_end(t).map(drop)
+    }
+
     /// Name of the mission.
     pub fn mission(&self) -> &str {
         &self.mission

@@ -1,5 +1,6 @@
 //! What each command of the command line does.
 
+mod check;
 mod compare;
 mod files;
 mod finished;
@@ -59,13 +60,13 @@ fn misread(error: &clap::Error) -> ExitCode {
     ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
 }
 
-/// Runs a command: exit code 0 when done, 1 when bounds were missed, 2 when it could not do its work, 130 when it was asked to
+/// Runs a command: exit code 0 when done, 1 when bounds were missed or a standard is broken, 2 when it could not do its work, 130 when it was asked to
 /// stop.
 pub fn execute(cli: Cli) -> ExitCode {
     let mut stdout = io::stdout().lock();
     let mut out = Out::new(&mut stdout, cli.json);
     // A worker's is its parent's.
-    let _temporary = if matches!(cli.command, Command::Worker(_)) {
+    let _temporary = if matches!(cli.command, Command::Worker(_) | Command::CheckTrial(_)) {
         None
     } else {
         Temporary::begin()
@@ -82,15 +83,17 @@ pub fn execute(cli: Cli) -> ExitCode {
         Command::Rerun(args) => rerun::rerun(&args, &mut out),
         Command::Reproduce(args) => reproduce::reproduce(&args, &mut out),
         Command::Inspect(args) => inspect::inspect(&args, &mut out),
+        Command::Check(args) => check::check(&args, &mut out),
         Command::Mission(command) => mission::mission(&command, &mut out),
         Command::Columns => list::list(&ListArgs::of(Listed::Metrics), &mut out),
         Command::Completions { shell } => completions(shell, &mut out),
         Command::Worker(args) => worker::worker(&args),
+        Command::CheckTrial(args) => check::trial(&args),
     };
     let result = result.and_then(|verdict| out.tell("verdict", verdict).map(|()| verdict));
     let code = match result {
         Ok(Verdict::Done) => ExitCode::SUCCESS,
-        Ok(Verdict::BoundsMissed) => ExitCode::from(1),
+        Ok(Verdict::BoundsMissed | Verdict::StandardBroken) => ExitCode::from(1),
         // Whoever reads our output has seen enough, as in `list | head`.
         Err(HarnessError::Write { source, .. }) if source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(HarnessError::Study(error)) if matches!(*error, StudyError::Stopped) => {

@@ -89,6 +89,9 @@ pub(super) fn replay(args: &ReplayArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
     }
     let table = finished(writer)?;
     write_whole(&args.out, &if as_parquet { from_csv(&table)? } else { table })?;
+    for text in &report.messages {
+        note(text);
+    }
     for (filter, ending) in spec.filters.iter().zip(&report.endings) {
         if let Some(failure) = &ending.failure {
             let when = failure.time.map(|t| format!(" at {t} s")).unwrap_or_default();

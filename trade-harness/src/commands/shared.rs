@@ -28,6 +28,7 @@ pub(super) const INTERRUPTED: u8 = 130;
 pub(super) enum Verdict {
     Done,
     BoundsMissed,
+    StandardBroken,
 }
 
 /// A line on stderr. Nobody can be told when that fails.

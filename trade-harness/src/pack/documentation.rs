@@ -16,7 +16,7 @@ const STYLE: &str = "body{font:15px/1.5 sans-serif;margin:2em auto;max-width:70e
 table{border-collapse:collapse}td,th{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left;vertical-align:top}\
 code{white-space:nowrap}h2{margin-top:1.6em}.eq{font:1.15em/1.6 serif;margin:.6em 2em}";
 
-/// Files beside the page, `NAME` for that of the model, and what they are.
+/// Files beside the page, `NAME` for that of the model, and what they are; the reference results first.
 const FILES: [(&str, &str); 4] = [
     (
         "reference/NAME_ref.csv",
@@ -32,8 +32,9 @@ const FILES: [(&str, &str); 4] = [
 
 /// The page: what the FMU is, its presets and its variables.
 ///
+/// * `reference`: whether there are reference results beside it.
 /// * `model`: what it simulates, as HTML.
-pub(super) fn html(d: &ModelDescription, filters: &Filters, model: &str) -> String {
+pub(super) fn html(d: &ModelDescription, filters: &Filters, reference: bool, model: &str) -> String {
     let name = escape(&d.model_name);
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title><style>{STYLE}</style></head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n<p>FMI 2.0 co-simulation, version {}, licence {}.</p>\n",
@@ -44,7 +45,7 @@ pub(super) fn html(d: &ModelDescription, filters: &Filters, model: &str) -> Stri
     page.push_str("<p><img src=\"picture.svg\" alt=\"\" width=\"160\" height=\"160\"></p>\n");
     page.push_str(model);
     page.push_str("<h2>Files</h2>\n<ul>\n");
-    for (file, about) in FILES {
+    for (file, about) in FILES.into_iter().skip(usize::from(!reference)) {
         let file = file.replace("NAME", &name);
         page.push_str(&format!("<li><a href=\"{file}\">{file}</a>: {about}</li>\n"));
     }

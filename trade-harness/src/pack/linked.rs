@@ -182,6 +182,7 @@ fn listed(line: &str) -> Option<Linked> {
 fn targets(platform: &str) -> &'static [&'static str] {
     match platform {
         "linux64" => &["x86_64-unknown-linux-gnu"],
+        "aarch64-linux" => &["aarch64-unknown-linux-gnu"],
         "linux32" => &["i686-unknown-linux-gnu"],
         "win64" => &["x86_64-pc-windows-gnu"],
         "win32" => &["i686-pc-windows-gnu"],

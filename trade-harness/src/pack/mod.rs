@@ -13,7 +13,7 @@ use std::io::{BufRead, BufReader, Cursor, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use fmi2_import::{Fmu, LIBRARY_SUFFIX, PLATFORM};
+use fmi2_import::{Fmu, PLATFORM};
 use interface::mission::{Document, EMBEDDED, PACKED, SHIPPED, guid_with};
 use study::{NAV, StudyError, TRUTH, World, filters_of};
 use zip::write::SimpleFileOptions;
@@ -25,6 +25,7 @@ use reference::{Reference, Table};
 use crate::HarnessError;
 use crate::digest::of_bytes;
 use crate::output::write_whole;
+use crate::platforms::{Call, Platform, joined, recipes};
 
 /// The description, first in an archive, so that whoever reads one as a stream has it at once.
 const DESCRIPTION: &str = "modelDescription.xml";
@@ -74,8 +75,22 @@ pub fn fmu_path(folder: &Path, name: &str) -> PathBuf {
 /// [`HarnessError::NoWorkspace`], [`HarnessError::NoCargo`], [`HarnessError::Build`], [`HarnessError::NoLibrary`],
 /// reading, writing and zip errors, and [`HarnessError::DoesNotStart`] for a library and description that do not belong together.
 pub fn pack(workspace: &Path, folder: &Path, mission: Option<&Path>, quiet: bool) -> Result<Vec<Packed>, HarnessError> {
+    pack_for(&BTreeSet::new(), workspace, folder, mission, quiet)
+}
+
+/// [`pack`] for these platforms; for none, for the one that this program runs on.
+///
+/// # Errors
+/// Those of [`pack`], [`HarnessError::Platforms`] and [`HarnessError::Universal`].
+pub fn pack_for(
+    platforms: &BTreeSet<Platform>,
+    workspace: &Path,
+    folder: &Path,
+    mission: Option<&Path>,
+    quiet: bool,
+) -> Result<Vec<Packed>, HarnessError> {
     let (world, resources) = resources(mission)?;
-    let built = build(workspace, quiet)?;
+    let built = build_all(platforms, workspace, quiet)?;
     let date = date::of(workspace)?;
     let dated = |xml| date::dated(xml, date.as_deref());
     let mut said = Table::default();
@@ -84,41 +99,41 @@ pub fn pack(workspace: &Path, folder: &Path, mission: Option<&Path>, quiet: bool
         let no_library = || HarnessError::NoLibrary {
             target: identifier.to_owned(),
         };
-        let library = built.libraries.get(identifier).ok_or_else(no_library)?;
+        let libraries = built.libraries.get(identifier).ok_or_else(no_library)?;
         let guid = built.guids.get(name).ok_or_else(no_library)?;
         let committed = workspace.join("modelDescription").join(name);
         let description = committed.join("modelDescription.xml");
         let inside = world.as_ref().zip(resources.get(&packed_mission()));
-        let mut files = BTreeMap::from([
-            (
-                DESCRIPTION.to_owned(),
-                dated(described(read(&description)?, "guid", guid, inside)),
-            ),
-            (
-                format!("binaries/{PLATFORM}/{identifier}.{LIBRARY_SUFFIX}"),
-                read(library)?,
-            ),
-        ]);
+        let mut files = BTreeMap::from([(
+            DESCRIPTION.to_owned(),
+            dated(described(read(&description)?, "guid", guid, inside)),
+        )]);
+        files.extend(libraries.clone());
         files.extend(resources.clone());
         let path = fmu_path(folder, name);
         let fmu = trial(name, &path, &files)?;
-        let reference = Reference::of(&fmu, &mut said)?;
+        let reference = if runs_here(&files) {
+            Reference::of(&fmu, &mut said)?.files()
+        } else {
+            [Files::new(), Files::new()]
+        };
         let picture = read(&committed.join("icon.svg"))?;
         let page = read(&committed.join("documentation.html"))?;
         let page = documentation::html(
             fmu.description(),
             &filters_of(fmu.description())?,
+            runs_here(&files),
             &String::from_utf8_lossy(&page),
         );
         files.insert("documentation/index.html".to_owned(), page.into_bytes());
         files.insert("documentation/picture.svg".to_owned(), picture.clone());
-        files.extend(linked::files(workspace, name, &platforms(&files), &built.sources)?);
+        files.extend(linked::files(workspace, name, &platforms_of(&files), &built.sources)?);
         let shared = files.clone();
         files.insert(ICON.to_owned(), read(&committed.join("icon.png"))?);
-        files.extend(beside(&reference.files(false), REFERENCE));
+        files.extend(beside(&reference[0], REFERENCE));
         let twin = read(&fmi3::description(workspace, name))?;
         let mut twin = fmi3::files(&shared, dated(described(twin, fmi3::IDENTIFIER, guid, inside)));
-        twin.extend(beside(&reference.files(true), REFERENCE));
+        twin.extend(beside(&reference[1], REFERENCE));
         twin.extend(fmi3::drawn(
             terminals::xml(fmu.description()),
             picture,
@@ -126,8 +141,8 @@ pub fn pack(workspace: &Path, folder: &Path, mission: Option<&Path>, quiet: bool
         ));
         packed.push(write(path, &files)?);
         packed.push(write(fmu_path(&fmi3::folder(folder), name), &twin)?);
-        for (file, contents) in reference.files(false) {
-            keep(&folder.join("cross-check").join(name).join(file), &contents)?;
+        for (file, contents) in &reference[0] {
+            keep(&folder.join("cross-check").join(name).join(file), contents)?;
         }
     }
     Ok(packed)
@@ -154,8 +169,13 @@ fn beside(files: &Files, folder: &str) -> Files {
     files.iter().map(placed).collect()
 }
 
+/// Whether there is a library for this platform.
+fn runs_here(files: &Files) -> bool {
+    platforms_of(files).contains(PLATFORM)
+}
+
 /// Platforms that there are libraries for.
-fn platforms(files: &Files) -> BTreeSet<String> {
+fn platforms_of(files: &Files) -> BTreeSet<String> {
     let platform = |file: &String| Some(file.strip_prefix("binaries/")?.split_once('/')?.0.to_owned());
     files.keys().filter_map(platform).collect()
 }
@@ -222,19 +242,46 @@ fn attribute<'a>(xml: &'a str, name: &str) -> &'a str {
     rest.split('"').next().unwrap_or_default()
 }
 
-/// What cargo made.
-#[derive(Debug, Default)]
-struct Built {
-    /// Shared library of each identifier.
-    libraries: BTreeMap<String, PathBuf>,
+/// What cargo made: `Library` of each identifier.
+#[derive(Debug)]
+struct Built<Library> {
+    libraries: BTreeMap<String, Library>,
     /// GUID of each crate's build, without braces.
     guids: BTreeMap<&'static str, String>,
     /// Where the packages of others are.
     sources: linked::Sources,
 }
 
-/// Runs cargo.
-fn build(workspace: &Path, quiet: bool) -> Result<Built, HarnessError> {
+/// The libraries of every platform by their names in the archive.
+fn build_all(platforms: &BTreeSet<Platform>, workspace: &Path, quiet: bool) -> Result<Built<Files>, HarnessError> {
+    let mut all = Built {
+        libraries: BTreeMap::<String, Files>::new(),
+        guids: BTreeMap::new(),
+        sources: linked::Sources::new(),
+    };
+    for recipe in recipes(platforms)? {
+        let mut parts: BTreeMap<String, Vec<Vec<u8>>> = BTreeMap::new();
+        for call in &recipe.calls {
+            let built = build(workspace, quiet, call, recipe.suffix)?;
+            for (identifier, library) in built.libraries {
+                parts.entry(identifier).or_default().push(read(&library)?);
+            }
+            all.guids.extend(built.guids);
+            all.sources.extend(built.sources);
+        }
+        for (identifier, parts) in parts {
+            let name = format!("binaries/{}/{identifier}.{}", recipe.folder, recipe.suffix);
+            all.libraries
+                .entry(identifier)
+                .or_default()
+                .insert(name, joined(parts)?);
+        }
+    }
+    Ok(all)
+}
+
+/// Runs cargo once, for libraries of this suffix.
+fn build(workspace: &Path, quiet: bool, call: &Call, suffix: &str) -> Result<Built<PathBuf>, HarnessError> {
     let manifest = workspace.join("Cargo.toml");
     if !FMUS
         .iter()
@@ -244,16 +291,11 @@ fn build(workspace: &Path, quiet: bool) -> Result<Built, HarnessError> {
             path: workspace.to_owned(),
         });
     }
-    let program = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
-    let mut command = Command::new(&program);
-    command.args([
-        "build",
-        "--release",
-        "--message-format",
-        "json-render-diagnostics",
-        "--manifest-path",
-    ]);
+    let mut command = Command::new(&call.program);
+    command.args(&call.arguments);
+    command.args(["--message-format", "json-render-diagnostics", "--manifest-path"]);
     command.arg(&manifest);
+    command.envs(call.environment.iter().map(|(name, value)| (name, value)));
     for (name, _) in FMUS {
         command.args(["--package", name]);
     }
@@ -261,7 +303,7 @@ fn build(workspace: &Path, quiet: bool) -> Result<Built, HarnessError> {
         command.arg("--quiet");
     }
     let no_cargo = |source| HarnessError::NoCargo {
-        program: program.clone(),
+        program: call.program.clone(),
         source,
     };
     let mut child = command
@@ -269,10 +311,14 @@ fn build(workspace: &Path, quiet: bool) -> Result<Built, HarnessError> {
         .stdout(Stdio::piped())
         .spawn()
         .map_err(no_cargo)?;
-    let mut built = Built::default();
+    let mut built = Built {
+        libraries: BTreeMap::new(),
+        guids: BTreeMap::new(),
+        sources: linked::Sources::new(),
+    };
     if let Some(messages) = child.stdout.take() {
         for line in BufReader::new(messages).lines().map_while(Result::ok) {
-            built.libraries.extend(library_of(&line));
+            built.libraries.extend(library_of(&line, suffix));
             built.guids.extend(guid_of(&line));
             built.sources.extend(linked::source_of(&line));
         }
@@ -286,7 +332,7 @@ fn build(workspace: &Path, quiet: bool) -> Result<Built, HarnessError> {
 }
 
 /// Target and file of a shared library, if this line of cargo's JSON messages tells of one.
-fn library_of(line: &str) -> Option<(String, PathBuf)> {
+fn library_of(line: &str, suffix: &str) -> Option<(String, PathBuf)> {
     let message: serde_json::Value = serde_json::from_str(line).ok()?;
     if message["reason"] != "compiler-artifact" {
         return None;
@@ -296,7 +342,7 @@ fn library_of(line: &str) -> Option<(String, PathBuf)> {
         .iter()
         .filter_map(|f| f.as_str())
         .map(Path::new)
-        .find(|f| f.extension().is_some_and(|extension| extension == LIBRARY_SUFFIX))?;
+        .find(|f| f.extension().is_some_and(|extension| extension == suffix))?;
     Some((message["target"]["name"].as_str()?.to_owned(), library.to_owned()))
 }
 
@@ -345,7 +391,8 @@ fn read(path: &Path) -> Result<Vec<u8>, HarnessError> {
     })
 }
 
-/// Opens and starts the FMU as far as it is, so that a description that does not belong to the library is found here.
+/// Opens the FMU as far as it is, and starts it where it has a library for this platform, so that a description that does not belong
+/// to the library is found here.
 fn trial(name: &'static str, path: &Path, files: &Files) -> Result<Fmu, HarnessError> {
     let unwritable = |source| HarnessError::Write {
         path: path.to_owned(),
@@ -354,17 +401,20 @@ fn trial(name: &'static str, path: &Path, files: &Files) -> Result<Fmu, HarnessE
     let mut trial = tempfile::Builder::new().suffix(".fmu").tempfile().map_err(unwritable)?;
     trial.write_all(&archive(path, files)?).map_err(unwritable)?;
     let fmu = Fmu::open(trial.path())?;
-    fmu.instantiate("pack", false)
-        .map_err(|source| HarnessError::DoesNotStart {
-            name,
-            source: Box::new(source),
-        })?;
+    if runs_here(files) {
+        fmu.instantiate("pack", false)
+            .map_err(|source| HarnessError::DoesNotStart {
+                name,
+                source: Box::new(source),
+            })?;
+    }
     Ok(fmu)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fmi2_import::LIBRARY_SUFFIX;
     use std::io::Read;
 
     #[test]
@@ -421,7 +471,7 @@ mod tests {
         let line = format!(
             r#"{{"reason":"compiler-artifact","target":{{"name":"fmu_nav","kind":["cdylib"]}},"filenames":["/t/libfmu_nav.{LIBRARY_SUFFIX}","/t/libfmu_nav.d"]}}"#
         );
-        let found = library_of(&line).unwrap();
+        let found = library_of(&line, LIBRARY_SUFFIX).unwrap();
         assert_eq!(
             found,
             (
@@ -429,8 +479,8 @@ mod tests {
                 PathBuf::from(format!("/t/libfmu_nav.{LIBRARY_SUFFIX}"))
             )
         );
-        assert!(library_of(r#"{"reason":"build-finished","success":true}"#).is_none());
-        assert!(library_of("no json").is_none());
+        assert!(library_of(r#"{"reason":"build-finished","success":true}"#, LIBRARY_SUFFIX).is_none());
+        assert!(library_of("no json", LIBRARY_SUFFIX).is_none());
     }
 
     #[test]

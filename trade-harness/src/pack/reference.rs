@@ -141,22 +141,22 @@ impl Reference {
         })
     }
 
-    /// The files of the rules.
-    ///
-    /// * `whole`: arrays whole, as FMI 3.0 has them.
-    pub(super) fn files(&self, whole: bool) -> Files {
+    /// The files of the rules; and the same with arrays whole, as FMI 3.0 has them.
+    pub(super) fn files(&self) -> [Files; 2] {
         let Self { name, step, stop, .. } = self;
         let options = format!(
             "StartTime, 0.0\nStopTime, {stop:?}\nStepSize, {step:?}\nRelTol, 1e-12\nOutputIntervalLength, {step:?}\n"
         );
-        let mut files = Files::from([
-            (format!("{name}_ref.csv"), self.result.csv(whole).into_bytes()),
-            (format!("{name}_ref.opt"), options.into_bytes()),
-        ]);
-        if let Some(input) = &self.input {
-            files.insert(format!("{name}_in.csv"), input.csv(whole).into_bytes());
-        }
-        files
+        [false, true].map(|whole| {
+            let mut files = Files::from([
+                (format!("{name}_ref.csv"), self.result.csv(whole).into_bytes()),
+                (format!("{name}_ref.opt"), options.clone().into_bytes()),
+            ]);
+            if let Some(input) = &self.input {
+                files.insert(format!("{name}_in.csv"), input.csv(whole).into_bytes());
+            }
+            files
+        })
     }
 }
 

@@ -238,6 +238,11 @@ impl Accelerometer {
         self.held.map_or_else(Vector3::zeros, |_| self.command_n)
     }
 
+    /// Whether the newest reading has a commanded acceleration in it.
+    pub(super) fn has_felt_command(&self) -> bool {
+        self.command_n != Vector3::zeros()
+    }
+
     /// Takes note of the velocity that a command has credited to a gap at whose end there is no mean; it will be part of one.
     pub(super) fn credit(&mut self, velocity_n: &Vector3<f64>) {
         if self.mean.last_s.is_some() {

@@ -396,7 +396,9 @@ impl Estimator for InertialState {
     ) -> Result<TargetMatrix, FilterError> {
         let mut total = TargetMatrix::identity();
         let Some(core) = &mut self.core else { return Ok(total) };
-        let commands = Some(commands).filter(|told| !told.is_silent());
+        // A reading may hold a command that has ended: where samples come a step late, its end is the newest thing known.
+        let felt = self.accelerometer.as_ref().is_some_and(Accelerometer::has_felt_command);
+        let commands = Some(commands).filter(|told| felt || !told.is_silent());
         let (held, mean_since) = self.accelerometer.as_ref().map_or_else(
             || (Vector3::zeros(), None),
             |accelerometer| (accelerometer.command_held(), accelerometer.mean_since()),

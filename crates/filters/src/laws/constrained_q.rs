@@ -34,7 +34,17 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             about: "how the density is found: by likelihood, to which q_min to short_memory belong, or by regression, to which all that follow do",
             kind: Kind::Choice {
                 type_name: "QLaw",
-                items: &["likelihood", "regression"],
+                about: "how constrained_q finds its density",
+                items: &[
+                    (
+                        "likelihood",
+                        "weights of a bank of filters, by an exponential-cone programme",
+                    ),
+                    (
+                        "regression",
+                        "MILTON's regression of residuals, by a quadratic or semidefinite programme",
+                    ),
+                ],
             },
         },
         Q_MIN,
@@ -49,7 +59,11 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             about: "jerk density: one number per axis (diagonal) or a symmetric matrix (full)",
             kind: Kind::Choice {
                 type_name: "QShape",
-                items: &["diagonal", "full"],
+                about: "form of the jerk density",
+                items: &[
+                    ("diagonal", "one number for each axis"),
+                    ("full", "a symmetric, positive semidefinite matrix"),
+                ],
             },
         },
         Tunable {

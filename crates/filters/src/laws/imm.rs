@@ -1,5 +1,7 @@
 //! Interacting multiple models over constant white-acceleration densities (Blom and Bar-Shalom, 1988).
 
+use numerics::math;
+
 use super::adaptation::Setup;
 use super::bank::{Bank, CONSTANTS, Centre, Mixture, Shared, reweigh};
 use super::entry::{FilterEntry, Motion, Search, Update};
@@ -67,7 +69,7 @@ impl Imm {
         if count == 1 {
             return;
         }
-        let leave = -(-dt / self.sojourn).exp_m1() / (count - 1) as f64;
+        let leave = -math::exp_m1(-dt / self.sojourn) / (count - 1) as f64;
         let from = |i: usize, j: usize| {
             let stay = if i == j { 1.0 - leave * count as f64 } else { 0.0 };
             self.weights[i] * (stay + leave)

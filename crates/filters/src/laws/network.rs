@@ -6,7 +6,7 @@ use crate::disturbance::Disturbance;
 use crate::error::FilterError;
 use crate::tunable::{Bound, Kind, Scales, Start, Tunable};
 use nalgebra::{SMatrix, Vector3, Vector6};
-use numerics::{Source, stream};
+use numerics::{Source, math, stream};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 use serde::{Deserialize, Serialize};
@@ -55,7 +55,11 @@ const TUNABLES: [Tunable; 9] = [
         about: "what is learnt from where velocity is measured: the innovation, or the residual after the update",
         kind: Kind::Choice {
             type_name: "LearningError",
-            items: &["innovation", "residual"],
+            about: "error of velocity from which a network learns",
+            items: &[
+                ("innovation", "measured minus predicted, before the update"),
+                ("residual", "measured minus estimated, after it"),
+            ],
         },
     },
     Tunable {
@@ -79,7 +83,7 @@ const ORBITAL_TIME: f64 = 1000.0;
 
 /// What was learnt fades in five times the disturbance's own length, so that it outlives one and does not stay.
 fn relaxation(scales: &Scales) -> f64 {
-    (-scales.period / (5.0 * scales.time)).exp()
+    math::exp(-scales.period / (5.0 * scales.time))
 }
 
 /// A hundred initial deviations: the network then sees all of an approach that starts about as far away as it is known.
@@ -188,7 +192,7 @@ impl Network {
         // The smallest exponent cancels between Phi and its sum, and without it both vanish far from all centres.
         let mut sum = 0.0;
         for phi in &mut self.phi {
-            *phi = (least - *phi).exp();
+            *phi = math::exp(least - *phi);
             sum += *phi;
         }
         let mut d = Vector3::zeros();

@@ -41,7 +41,11 @@ pub(super) const ENTRY: FilterEntry = FilterEntry {
             about: "all of K delta delta^T K^T as printed (full), or its variances above a floor (diagonal)",
             kind: Kind::Choice {
                 type_name: "Adaptation",
-                items: &["full", "diagonal"],
+                about: "how the innovations adapt Q",
+                items: &[
+                    ("full", "all of K delta delta^T K^T, as printed"),
+                    ("diagonal", "its variances alone, above a floor"),
+                ],
             },
         },
         Tunable {

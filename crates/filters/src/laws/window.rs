@@ -11,11 +11,15 @@ use std::collections::VecDeque;
 
 /// Fewest samples with which a window of three rows each can observe nine states; with six rows two would do.
 const SHORTEST: i32 = 3;
-const READINGS: &[&str] = &["printed", "consistent"];
+const READINGS: &[(&str, &str)] = &[
+    ("printed", "as the paper's equations have it"),
+    ("consistent", "as their derivation implies"),
+];
 
 /// A choice between what the paper prints and what its derivation implies; index 1 is the latter.
 pub(super) const READING: Kind = Kind::Choice {
     type_name: "Reading",
+    about: "how an equation of MILTON is read",
     items: READINGS,
 };
 

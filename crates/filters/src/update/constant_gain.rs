@@ -1,6 +1,7 @@
 //! The update of an observer: a gain that nobody computes from a covariance.
 
 use nalgebra::Vector6;
+use numerics::math;
 use serde::{Deserialize, Serialize};
 
 /// A constant gain on position and velocity, where both are measured in full; internal units.
@@ -18,7 +19,7 @@ impl ConstantGain {
     ///
     /// Source: Pesce, Silvestrini and Lavagna, Eq. (33).
     pub fn over(&self, dt: f64) -> Vector6<f64> {
-        let (position, velocity) = (-(-self.position * dt).exp_m1(), -(-self.velocity * dt).exp_m1());
+        let (position, velocity) = (-math::exp_m1(-self.position * dt), -math::exp_m1(-self.velocity * dt));
         Vector6::from_fn(|i, _| if i < 3 { position } else { velocity })
     }
 }

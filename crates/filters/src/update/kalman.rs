@@ -5,7 +5,7 @@
 use crate::error::FilterError;
 use crate::state::N;
 use nalgebra::{Cholesky, Const, SMatrix, SVector};
-use numerics::spd;
+use numerics::{math, spd};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -67,7 +67,7 @@ impl<const M: usize> Innovated<M> {
         let nis = whitened.iter().take(rows).map(|w| w * w).sum::<f64>();
         // One logarithm for all rows; a determinant of thirteen rows is far from overflow in any units.
         let root_det: f64 = l.diagonal().iter().take(rows).product();
-        let log_likelihood = -0.5 * (nis + rows as f64 * (2.0 * std::f64::consts::PI).ln()) - root_det.ln();
+        let log_likelihood = -0.5 * (nis + rows as f64 * math::ln(2.0 * std::f64::consts::PI)) - math::ln(root_det);
         (nis, log_likelihood)
     }
 }

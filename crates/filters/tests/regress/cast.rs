@@ -50,7 +50,7 @@ fn sets(law: &FilterEntry, preset: &str) -> &'static [(&'static str, &'static st
 
 fn value(law: &FilterEntry, tunable: &str, text: &str) -> Value {
     match law.tunables.iter().find(|t| t.name == tunable).unwrap().kind {
-        Kind::Choice { items, .. } => Value::Choice(items.iter().position(|item| *item == text).unwrap()),
+        Kind::Choice { items, .. } => Value::Choice(items.iter().position(|(item, _)| *item == text).unwrap()),
         kind => panic!("{tunable} is set to {text}, and is {kind:?}"),
     }
 }

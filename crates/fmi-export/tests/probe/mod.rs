@@ -13,6 +13,10 @@ pub const PANICS_IN_GET: i32 = 5;
 pub const PANICS_IN_DROP: i32 = 6;
 pub const WARNS: i32 = 7;
 pub const SAYS_NUL: i32 = 8;
+pub const PANICS_IN_CHECK: i32 = 9;
+
+/// s.
+pub const LONGEST_STEP: f64 = 1e6;
 
 #[derive(Clone, Serialize, Deserialize)]
 pub struct Probe {
@@ -104,6 +108,15 @@ impl Model for Probe {
         Ok(())
     }
 
+    fn check_step(&self, t: f64, h: f64) -> Result<(), ModelError> {
+        if h > LONGEST_STEP {
+            let cause = Broken("patience has an end", None);
+            return Err(Broken("too far", Some(Box::new(cause))).into());
+        }
+        assert!(self.behaviour != PANICS_IN_CHECK, "cannot judge {t} s");
+        Ok(())
+    }
+
     fn do_step(&mut self, t: f64, h: f64, log: &mut Log<'_>) -> Result<(), ModelError> {
         match self.behaviour {
             FAILS_IN_STEP => return Err(Broken("stuck", None).into()),
@@ -142,6 +155,7 @@ fn table() -> Table<Probe> {
             ("panics_in_drop", ""),
             ("warns", ""),
             ("says_nul", ""),
+            ("panics_in_check", ""),
         ],
     );
     t.enumeration_type("Kind", "", [("one", ""), ("two", "")]);

@@ -38,8 +38,8 @@ pub unsafe fn set_debug_logging<M: Exported<Fmi2>>(
 }
 
 /// Answers null for a wrong GUID, an interface other than co-simulation, an empty name, or a faulty definition, and says which to
-/// the logger. Visibility is not
-/// used, and a resource location that is no folder of this machine is taken as none.
+/// the logger if logging is on. Visibility is not used, a resource location that is no folder of this machine is taken as none, and
+/// any callback may be missing: messages then reach nobody, memory is the library's own, and steps are never asynchronous.
 pub unsafe fn instantiate<M: Exported<Fmi2>>(
     name: Fmi2String,
     fmu_type: c_int,
@@ -49,18 +49,18 @@ pub unsafe fn instantiate<M: Exported<Fmi2>>(
     _visible: Fmi2Boolean,
     logging_on: Fmi2Boolean,
 ) -> Fmi2Component {
-    if functions.is_null() || !functions.is_aligned() {
+    if !functions.is_aligned() {
         return ptr::null_mut(); // nobody to tell
     }
-    // SAFETY: not null, aligned, and the host vouches for what it points to.
-    let functions = unsafe { *functions };
+    // SAFETY: null or aligned, and the host vouches for what it points to.
+    let functions = unsafe { functions.as_ref() };
     let spoken_name = if name.is_null() {
         c""
     } else {
         // SAFETY: not null, and the host vouches for the terminating NUL.
         unsafe { CStr::from_ptr(name) }
     };
-    let sink = Sink::new(&functions, spoken_name);
+    let sink = Sink::new(functions, spoken_name);
     let wish = Wish {
         name,
         identifier: ("fmuGUID", guid),

@@ -100,8 +100,17 @@ fn status(raw: RawStatus) -> Fmi2Status {
 }
 
 impl Host {
+    /// An instance that says why calls end as they do, and nothing else.
     pub fn new() -> Self {
-        Self::with_logging(false)
+        let host = Self::with_logging(true);
+        let reasons = [
+            c"logStatusWarning",
+            c"logStatusDiscard",
+            c"logStatusError",
+            c"logStatusFatal",
+        ];
+        assert_eq!(host.set_debug_logging(1, &reasons), Fmi2Status::Ok);
+        host
     }
 
     pub fn with_logging(on: bool) -> Self {

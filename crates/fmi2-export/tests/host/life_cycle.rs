@@ -7,7 +7,10 @@ use std::ptr;
 use fmi2_export::abi::{Fmi2CallbackFunctions, Fmi2Status};
 
 use crate::host::{Host, Journal, callbacks, own_guid, vr};
-use crate::probe::{FAILS_IN_STEP, FAILS_TO_INITIALISE, PANICS_IN_DROP, PANICS_IN_GET, PANICS_IN_STEP, WARNS, fmi2};
+use crate::probe::{
+    FAILS_IN_STEP, FAILS_TO_INITIALISE, LONGEST_STEP, PANICS_IN_CHECK, PANICS_IN_DROP, PANICS_IN_GET, PANICS_IN_STEP,
+    WARNS, fmi2,
+};
 
 use Fmi2Status::{Error, Fatal, Ok as Fine, Warning};
 
@@ -18,7 +21,7 @@ fn refusal(name: Option<&CStr>, kind: i32, guid: Option<&CStr>) -> String {
     let functions = callbacks(&journal);
     let pointer = |text: Option<&CStr>| text.map_or(ptr::null(), CStr::as_ptr);
     // SAFETY: pointers are null or to live values.
-    let component = unsafe { fmi2::fmi2Instantiate(pointer(name), kind, pointer(guid), ptr::null(), &functions, 0, 0) };
+    let component = unsafe { fmi2::fmi2Instantiate(pointer(name), kind, pointer(guid), ptr::null(), &functions, 0, 1) };
     assert!(component.is_null());
     let messages = journal.messages.into_inner().unwrap();
     assert_eq!(messages.len(), 1);
@@ -31,7 +34,10 @@ fn instantiate_says_why_not() {
     let own = CString::new(own_guid()).unwrap();
     let (name, own) = (Some(c"x"), Some(own.as_c_str()));
     let wrong = refusal(name, 1, Some(c"{abc}"));
-    assert!(wrong.contains("{abc}") && wrong.contains(&own_guid()), "{wrong}");
+    assert!(
+        wrong.contains("the GUID given is '{abc}'") && wrong.contains(&own_guid()),
+        "{wrong}"
+    );
     for (reason, part) in [
         (refusal(name, 0, own), "co-simulation only"),
         (refusal(name, 7, own), "unknown fmi2Type 7"),
@@ -45,25 +51,53 @@ fn instantiate_says_why_not() {
     }
 }
 
+/// Whatever the host does not offer, an instance lives without.
 #[test]
-fn instantiate_without_callbacks_is_null_and_without_logger_is_fine() {
+fn any_callback_may_be_missing() {
     let own = CString::new(own_guid()).unwrap();
-    let instantiate = |functions: *const Fmi2CallbackFunctions| {
+    let journal = Journal::default();
+    let whole = callbacks(&journal);
+    let none = Fmi2CallbackFunctions {
+        logger: None,
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        component_environment: ptr::null_mut(),
+    };
+    let mute = Fmi2CallbackFunctions { logger: None, ..whole };
+    // Without allocator in any case; with a logger that hears of refused calls, or none.
+    for (functions, heard) in [
+        (ptr::null(), 0),
+        (ptr::from_ref(&none), 0),
+        (ptr::from_ref(&mute), 0),
+        (ptr::from_ref(&whole), 2),
+    ] {
         let (name, guid) = (c"x".as_ptr(), own.as_ptr());
         // SAFETY: pointers are null or to live values.
-        unsafe { fmi2::fmi2Instantiate(name, 1, guid, ptr::null(), functions, 0, 1) }
-    };
-    assert!(instantiate(ptr::null()).is_null());
-    let mute = Fmi2CallbackFunctions {
-        logger: None,
-        ..callbacks(&Journal::default())
-    };
-    let component = instantiate(&mute);
-    assert!(!component.is_null());
-    // SAFETY: the component is alive; the refused call has no one to tell.
+        let component = unsafe { fmi2::fmi2Instantiate(name, 1, guid, ptr::null(), functions, 0, 1) };
+        assert!(!component.is_null());
+        let mut steps = 0;
+        // SAFETY: the component is alive, and the arrays have one element.
+        unsafe {
+            assert_eq!(fmi2::fmi2DoStep(component, 0.0, 1.0, 1), Error.raw());
+            assert_eq!(fmi2::fmi2EnterInitializationMode(component), Fine.raw());
+            assert_eq!(fmi2::fmi2ExitInitializationMode(component), Fine.raw());
+            assert_eq!(fmi2::fmi2DoStep(component, 0.0, 1.0, 1), Fine.raw());
+            assert_eq!(fmi2::fmi2GetInteger(component, &vr("steps"), 1, &mut steps), Fine.raw());
+            assert_eq!(fmi2::fmi2Terminate(component), Fine.raw());
+            fmi2::fmi2FreeInstance(component);
+            // Refused, and nobody to tell where there are no callbacks.
+            assert!(fmi2::fmi2Instantiate(name, 1, c"{}".as_ptr(), ptr::null(), functions, 0, 1).is_null());
+        }
+        assert_eq!(steps, 1);
+        let refusals = std::mem::take(&mut *journal.messages.lock().unwrap());
+        let refusals = refusals.iter().filter(|m| m.status == Error).count();
+        assert_eq!(refusals, heard);
+    }
+    // SAFETY: a misaligned pointer is not read.
     unsafe {
-        assert_eq!(fmi2::fmi2DoStep(component, 0.0, 1.0, 1), Error.raw());
-        fmi2::fmi2FreeInstance(component);
+        let askew = ptr::without_provenance(1);
+        assert!(fmi2::fmi2Instantiate(c"x".as_ptr(), 1, own.as_ptr(), ptr::null(), askew, 0, 1).is_null());
     }
 }
 
@@ -240,7 +274,14 @@ fn steps_of_any_size_are_taken_past_the_stop_time_and_must_be_gapless() {
         ((10001.1, 0.0), "step size 0 s must be greater than 0"),
         ((10001.1, -1.0), "step size -1 s must be"),
         ((10001.1, f64::NAN), "step size = NaN is not finite"),
+        ((f64::NAN, 1.0), "point = NaN is not finite"),
         ((f64::INFINITY, 1.0), "point = inf is not finite"),
+        ((10001.1, f64::INFINITY), "step size = inf is not finite"),
+        (
+            (10001.1, f64::MAX),
+            "the model does not take this step: too far: patience has an end",
+        ),
+        ((10001.1, 1.1 * LONGEST_STEP), "the model does not take this step"),
     ] {
         assert_eq!(host.do_step(t, h), Error);
         let reason = host.reason(Error);
@@ -248,6 +289,7 @@ fn steps_of_any_size_are_taken_past_the_stop_time_and_must_be_gapless() {
         assert_eq!(host.bytes().unwrap(), before);
     }
     assert_eq!(host.get_integer(&[vr("steps")]), Ok(vec![4]));
+    assert_eq!(host.do_step(10001.1, 1.0), Fine, "as good as before");
 }
 
 #[test]
@@ -287,12 +329,13 @@ fn a_failed_step_leaves_time_and_values_readable() {
 fn a_panic_is_fatal_for_its_instance_alone() {
     for (behaviour, part) in [
         (PANICS_IN_STEP, "fmi2DoStep: panic inside the model: seized at 0 s"),
+        (PANICS_IN_CHECK, "fmi2DoStep: panic inside the model: cannot judge 0 s"),
         (PANICS_IN_GET, "fmi2GetString: panic inside the model: lost my voice"),
     ] {
         let other = Host::stepping(&[]);
         let host = Host::stepping(&[("behaviour", behaviour)]);
         let status = match behaviour {
-            PANICS_IN_STEP => host.do_step(0.0, 1.0),
+            PANICS_IN_STEP | PANICS_IN_CHECK => host.do_step(0.0, 1.0),
             _ => host.get_string(&[vr("echo")]).unwrap_err(),
         };
         assert_eq!(status, Fatal);

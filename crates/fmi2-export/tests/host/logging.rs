@@ -3,7 +3,7 @@
 use fmi2_export::abi::Fmi2Status;
 
 use crate::host::{Host, Message, vr};
-use crate::probe::WARNS;
+use crate::probe::{FAILS_IN_STEP, FAILS_TO_INITIALISE, PANICS_IN_DROP, PANICS_IN_GET, PANICS_IN_STEP, WARNS};
 
 use Fmi2Status::{Error, Ok as Fine, Warning};
 
@@ -19,28 +19,53 @@ fn run(host: &Host) -> Vec<String> {
 }
 
 #[test]
-fn categories_choose_among_debug_messages_and_status_messages_always_come() {
-    let status = ["logStatusWarning", "logStatusError"];
-    let host = Host::new();
-    assert_eq!(run(&host), status);
+fn categories_choose_among_messages_and_without_logging_there_are_none() {
+    const ALL: [&str; 4] = ["logEvents", "logStatusWarning", "logAll", "logStatusError"];
+    let host = Host::with_logging(false);
+    assert_eq!(run(&host), [""; 0]);
     for (on, categories, expected) in [
+        (1, &[][..], &ALL[..]),
+        (1, &[c"logAll"], &ALL),
+        (1, &[c"logEvents"], &["logEvents"]),
+        (1, &[c"logStatusError"], &["logStatusError"]),
         (
             1,
-            &[][..],
-            &["logEvents", "logStatusWarning", "logAll", "logStatusError"][..],
+            &[c"logStatusError", c"logEvents", c"logStatusWarning"],
+            &["logEvents", "logStatusWarning", "logStatusError"],
         ),
-        (
-            1,
-            &[c"logAll"],
-            &["logEvents", "logStatusWarning", "logAll", "logStatusError"],
-        ),
-        (1, &[c"logEvents"], &["logEvents", "logStatusWarning", "logStatusError"]),
-        (1, &[c"logStatusError"], &status),
-        (0, &[c"logAll"], &status),
+        (0, &[], &[]),
+        (0, &[c"logAll"], &[]),
+        (1, &[], &ALL),
     ] {
         assert_eq!(host.set_debug_logging(on, categories), Fine);
         // the settings outlive the reset in `run`
         assert_eq!(run(&host), expected, "{on} {categories:?}");
+    }
+}
+
+/// Warnings, refusals, failures, panics, overlapping calls, handles of others: the status says it, and the logger is left alone.
+#[test]
+fn silence_is_kept_whatever_goes_wrong() {
+    for behaviour in [
+        WARNS,
+        FAILS_TO_INITIALISE,
+        FAILS_IN_STEP,
+        PANICS_IN_STEP,
+        PANICS_IN_GET,
+        PANICS_IN_DROP,
+    ] {
+        let host = Host::with_logging(false);
+        host.set_integer(&[vr("behaviour")], &[behaviour]);
+        host.enter_initialization_mode();
+        host.exit_initialization_mode();
+        host.do_step(0.0, 1.0);
+        host.do_step(7.0, -1.0);
+        let _ = host.get_string(&[vr("echo")]);
+        host.set_real(&[9999], &[f64::NAN]);
+        host.enter_event_mode();
+        host.set_debug_logging(0, &[c"logWeather"]);
+        host.set_fmu_state(std::ptr::null_mut());
+        assert_eq!(host.free(), [], "behaviour {behaviour}");
     }
 }
 

@@ -93,7 +93,7 @@ fn instantiate<M: Exported<Fmi2>>(guid: &str, journal: &Journal) -> (*mut c_void
     let guid = CString::new(guid).unwrap();
     let (name, guid) = (c"other".as_ptr(), guid.as_ptr());
     // SAFETY: all pointers are to live Rust values.
-    let component = unsafe { boundary::instantiate::<M>(name, 1, guid, ptr::null(), &functions, 0, 0) };
+    let component = unsafe { boundary::instantiate::<M>(name, 1, guid, ptr::null(), &functions, 0, 1) };
     let messages = journal.messages.lock().unwrap().clone();
     (component, messages)
 }

@@ -1,23 +1,28 @@
 //! A running instance behind safe methods.
 
 mod states;
+mod values;
 
-use std::ffi::{CString, c_char};
+use std::ffi::CString;
 use std::ptr::NonNull;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use fmi2_abi::{
-    FMI2_FALSE, Fmi2Boolean, Fmi2CallbackFunctions, Fmi2Component, Fmi2Status, Fmi2StatusKind, Fmi2String, Fmi2Type,
-    RawStatus, boolean, truth,
+    FMI2_FALSE, FMI2_TRUE, Fmi2Boolean, Fmi2CallbackFunctions, Fmi2Component, Fmi2Status, Fmi2StatusKind, Fmi2String,
+    Fmi2Type, RawStatus, boolean, truth,
 };
 
 use crate::ImportError;
 use crate::description::ModelDescription;
+use crate::guard::{self, FirstCalls, Watch};
 use crate::handles::{Handle, Handles, Phase};
 use crate::library::Binary;
-use crate::logger::{LogMessage, Sink, text};
+use crate::logger::{Environment, LogMessage, Sink};
 use crate::status::Status;
+
+/// Category of what is said about loading a library.
+const LOADER: &str = "loader";
 
 /// How a call that succeeded ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,7 +66,9 @@ pub struct Instance {
     booleans: Vec<Fmi2Boolean>,
     handles: Arc<Handles>,
     description: Arc<ModelDescription>,
-    sink: Arc<Sink>,
+    /// Where it logs to.
+    environment: Arc<Environment>,
+    first_calls: FirstCalls,
     /// From `Box`; the FMU may keep the pointer until it is freed.
     callbacks: NonNull<Fmi2CallbackFunctions>,
     binary: Arc<Binary>,
@@ -98,23 +105,35 @@ impl Instance {
             binary.alive.fetch_add(1, Ordering::AcqRel);
         }
 
-        let sink = Arc::new(Sink::default());
-        let callbacks = NonNull::from(Box::leak(Box::new(sink.callbacks())));
-        // SAFETY: all strings are NUL-terminated and live during the call; the callbacks, and the sink they point to,
-        // live until the instance is freed.
-        let component = unsafe {
-            (binary.functions.instantiate)(
-                name_c.as_ptr(),
-                Fmi2Type::CoSimulation.raw(),
-                guid.as_ptr(),
-                resources.as_ptr(),
-                callbacks.as_ptr(),
-                FMI2_FALSE,
-                boolean(logging_on),
-            )
+        let sink = Sink::new(Arc::clone(&description));
+        for warning in &binary.warnings {
+            sink.push(Status::Known(Fmi2Status::Warning), LOADER.to_owned(), warning);
+        }
+        let environment = Arc::new(Environment::new(sink));
+        let callbacks = NonNull::from(Box::leak(Box::new(environment.callbacks())));
+        let create = |logging_on: Fmi2Boolean| {
+            // SAFETY: all strings are NUL-terminated and live during the call; the callbacks, and the environment they
+            // point to, live until the instance is freed.
+            guard::around(Watch::Whole, || unsafe {
+                (binary.functions.instantiate)(
+                    name_c.as_ptr(),
+                    Fmi2Type::CoSimulation.raw(),
+                    guid.as_ptr(),
+                    resources.as_ptr(),
+                    callbacks.as_ptr(),
+                    FMI2_FALSE,
+                    logging_on,
+                )
+            })
         };
+        let mark = environment.sink().mark();
+        let mut component = create(boolean(logging_on));
+        if component.is_null() && !logging_on && environment.sink().mark() == mark {
+            // It keeps silent as it was told to: once more, for the reason.
+            component = create(FMI2_TRUE);
+        }
         // From here on dropping releases everything; it calls nothing while `component` is null.
-        let instance = Self {
+        let mut instance = Self {
             name: name.to_owned(),
             component,
             phase: Phase::Starting,
@@ -124,7 +143,8 @@ impl Instance {
             booleans: Vec::new(),
             handles: Arc::default(),
             description,
-            sink,
+            environment,
+            first_calls: FirstCalls::default(),
             callbacks,
             binary,
         };
@@ -132,10 +152,35 @@ impl Instance {
             return Err(ImportError::Instantiate {
                 instance: instance.name.clone(),
                 model: instance.description.model_name.clone(),
-                messages: instance.sink.since(0),
+                messages: instance.sink().since(mark),
             });
         }
+        if !logging_on {
+            instance.ask_for_reasons();
+        }
         Ok(instance)
+    }
+
+    /// Asks an FMU that knows the standard's categories of failed calls to log those, since with logging off it says nothing,
+    /// not even why a call failed.
+    fn ask_for_reasons(&mut self) {
+        const REASONS: [&str; 4] = [
+            "logStatusWarning",
+            "logStatusDiscard",
+            "logStatusError",
+            "logStatusFatal",
+        ];
+        let known = &self.description.log_categories;
+        let reasons = REASONS.into_iter().filter(|name| known.iter().any(|c| c.name == *name));
+        let reasons: Vec<&str> = reasons.collect();
+        if !reasons.is_empty() && self.set_debug_logging(true, &reasons).is_err() && self.ended.is_none() {
+            // One that cannot do that is as good as before.
+            self.phase = Phase::Starting;
+        }
+    }
+
+    fn sink(&self) -> &Sink {
+        self.environment.sink()
     }
 
     /// The name it was created with.
@@ -156,10 +201,11 @@ impl Instance {
         self.warnings
     }
 
-    /// Takes the messages logged since the last time, oldest first; of a flood, the last 256.
+    /// Takes the messages logged since the last time, in the order in which each came first. Those that differ in their numbers
+    /// alone are one, with a count; there are at most 256.
     #[must_use]
     pub fn messages(&self) -> Vec<LogMessage> {
-        self.sink.drain()
+        self.sink().drain()
     }
 
     /// `fmi2SetDebugLogging` for the given categories; none means all.
@@ -270,123 +316,6 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2GetReal` into `values`, in the order of the value references.
-    ///
-    /// # Errors
-    /// [`ImportError::Call`], [`ImportError::Unusable`] or [`ImportError::LengthMismatch`].
-    pub fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), ImportError> {
-        let call = self.binary.functions.get_real;
-        self.exchange("fmi2GetReal", references, values.len(), |component| {
-            // SAFETY: both arrays have the length that is passed.
-            unsafe { call(component, references.as_ptr(), references.len(), values.as_mut_ptr()) }
-        })
-    }
-
-    /// `fmi2SetReal`.
-    ///
-    /// # Errors
-    /// As [`Instance::get_real`].
-    pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), ImportError> {
-        let call = self.binary.functions.set_real;
-        self.exchange("fmi2SetReal", references, values.len(), |component| {
-            // SAFETY: both arrays have the length that is passed.
-            unsafe { call(component, references.as_ptr(), references.len(), values.as_ptr()) }
-        })
-    }
-
-    /// `fmi2GetInteger`, for Integers and Enumerations.
-    ///
-    /// # Errors
-    /// As [`Instance::get_real`].
-    pub fn get_integer(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), ImportError> {
-        let call = self.binary.functions.get_integer;
-        self.exchange("fmi2GetInteger", references, values.len(), |component| {
-            // SAFETY: both arrays have the length that is passed.
-            unsafe { call(component, references.as_ptr(), references.len(), values.as_mut_ptr()) }
-        })
-    }
-
-    /// `fmi2SetInteger`, for Integers and Enumerations.
-    ///
-    /// # Errors
-    /// As [`Instance::get_real`].
-    pub fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Result<(), ImportError> {
-        let call = self.binary.functions.set_integer;
-        self.exchange("fmi2SetInteger", references, values.len(), |component| {
-            // SAFETY: both arrays have the length that is passed.
-            unsafe { call(component, references.as_ptr(), references.len(), values.as_ptr()) }
-        })
-    }
-
-    /// `fmi2GetBoolean`.
-    ///
-    /// # Errors
-    /// As [`Instance::get_real`].
-    pub fn get_boolean(&mut self, references: &[u32], values: &mut [bool]) -> Result<(), ImportError> {
-        let call = self.binary.functions.get_boolean;
-        let mut raw = std::mem::take(&mut self.booleans);
-        raw.clear();
-        raw.resize(references.len(), FMI2_FALSE);
-        let result = self.exchange("fmi2GetBoolean", references, values.len(), |component| {
-            // SAFETY: `raw` was given the length of `references`.
-            unsafe { call(component, references.as_ptr(), references.len(), raw.as_mut_ptr()) }
-        });
-        if result.is_ok() {
-            for (value, raw) in values.iter_mut().zip(&raw) {
-                *value = truth(*raw);
-            }
-        }
-        self.booleans = raw;
-        result
-    }
-
-    /// `fmi2SetBoolean`.
-    ///
-    /// # Errors
-    /// As [`Instance::get_real`].
-    pub fn set_boolean(&mut self, references: &[u32], values: &[bool]) -> Result<(), ImportError> {
-        let call = self.binary.functions.set_boolean;
-        let mut raw = std::mem::take(&mut self.booleans);
-        raw.clear();
-        raw.extend(values.iter().map(|&v| boolean(v)));
-        let result = self.exchange("fmi2SetBoolean", references, raw.len(), |component| {
-            // SAFETY: both arrays have the length that is passed.
-            unsafe { call(component, references.as_ptr(), references.len(), raw.as_ptr()) }
-        });
-        self.booleans = raw;
-        result
-    }
-
-    /// `fmi2GetString`, copied out of the FMU.
-    ///
-    /// # Errors
-    /// [`ImportError::Call`] or [`ImportError::Unusable`].
-    pub fn get_string(&mut self, references: &[u32]) -> Result<Vec<String>, ImportError> {
-        let call = self.binary.functions.get_string;
-        let mut raw: Vec<*const c_char> = vec![std::ptr::null(); references.len()];
-        self.exchange("fmi2GetString", references, raw.len(), |component| {
-            // SAFETY: both arrays have the length that is passed.
-            unsafe { call(component, references.as_ptr(), references.len(), raw.as_mut_ptr()) }
-        })?;
-        // SAFETY: the strings hold until the next call on this instance; null, as we left it, reads as empty.
-        Ok(raw.into_iter().map(|s| unsafe { text(s) }).collect())
-    }
-
-    /// `fmi2SetString`.
-    ///
-    /// # Errors
-    /// As [`Instance::get_real`], or [`ImportError::NulInText`].
-    pub fn set_string<S: AsRef<str>>(&mut self, references: &[u32], values: &[S]) -> Result<(), ImportError> {
-        const FUNCTION: &str = "fmi2SetString";
-        let call = self.binary.functions.set_string;
-        let owned = self.c_strings(FUNCTION, values)?;
-        let pointers: Vec<Fmi2String> = owned.iter().map(|s| s.as_ptr()).collect();
-        self.exchange(FUNCTION, references, pointers.len(), |component| {
-            // SAFETY: both arrays have the length that is passed, and the strings live during the call.
-            unsafe { call(component, references.as_ptr(), references.len(), pointers.as_ptr()) }
-        })
-    }
-
     /// Adds what the FMU knows about a discarded step.
     fn explain_discard(&mut self, messages: &mut Vec<String>) {
         if let Some(call) = self.binary.functions.get_real_status {
@@ -413,28 +342,6 @@ impl Instance {
         }
     }
 
-    /// A call that passes one value for each reference; none at all is no call.
-    fn exchange(
-        &mut self,
-        function: &'static str,
-        references: &[u32],
-        values: usize,
-        call: impl FnOnce(Fmi2Component) -> RawStatus,
-    ) -> Result<(), ImportError> {
-        if references.len() != values {
-            return Err(ImportError::LengthMismatch {
-                instance: self.name.clone(),
-                function,
-                references: references.len(),
-                values,
-            });
-        }
-        if references.is_empty() {
-            return Ok(());
-        }
-        self.call(function, call)
-    }
-
     fn call(
         &mut self,
         function: &'static str,
@@ -456,8 +363,9 @@ impl Instance {
                 status,
             });
         }
-        let mark = self.sink.mark();
-        let status = Status::from_raw(call(self.component));
+        let mark = self.sink().mark();
+        let watch = self.first_calls.watch(function);
+        let status = Status::from_raw(guard::around(watch, || call(self.component)));
         match status {
             Status::Known(Fmi2Status::Ok) => return Ok(Outcome::Ok),
             Status::Known(Fmi2Status::Warning) => {
@@ -472,7 +380,7 @@ impl Instance {
             instance: self.name.clone(),
             function,
             status,
-            messages: self.sink.since(mark),
+            messages: self.sink().since(mark),
         })
     }
 
@@ -507,11 +415,13 @@ impl Drop for Instance {
             if self.ended.is_some() {
                 // The FMU may still run code of its own: what it may touch stays where it is.
                 self.binary.keep_loaded.store(true, Ordering::Relaxed);
-                std::mem::forget(Arc::clone(&self.sink));
+                std::mem::forget(Arc::clone(&self.environment));
                 return;
             }
             // SAFETY: the component is alive and not used again.
-            unsafe { (self.binary.functions.free_instance)(self.component) };
+            guard::around(Watch::Whole, || unsafe {
+                (self.binary.functions.free_instance)(self.component)
+            });
         }
         // SAFETY: the pointer came from a `Box`, and no instance is left that could use it.
         drop(unsafe { Box::from_raw(self.callbacks.as_ptr()) });

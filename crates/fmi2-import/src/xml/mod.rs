@@ -1,7 +1,8 @@
 //! `modelDescription.xml` to [`ModelDescription`].
 //!
-//! `raw` mirrors the schema, `resolve` turns it into what the rest of the crate works with.
+//! `encoding` makes text of the bytes, `raw` mirrors the schema, `resolve` turns it into what the rest of the crate works with.
 
+mod encoding;
 mod raw;
 mod resolve;
 
@@ -16,13 +17,13 @@ use crate::description::{ModelDescription, VendorAnnotation};
 use raw::{RawDescription, RawRoot};
 use resolve::Resolver;
 
-/// Reads the text of a `modelDescription.xml`; `path` is the FMU, for messages.
+/// Reads a `modelDescription.xml` in the encoding that it declares; `path` is the FMU, for messages.
 ///
 /// # Errors
 /// [`ImportError::MalformedXml`], [`ImportError::FmiVersion`], [`ImportError::NotCoSimulation`] or
 /// [`ImportError::InvalidDescription`].
 pub(crate) fn parse(xml: &[u8], path: &Path) -> Result<ModelDescription, ImportError> {
-    let xml = std::str::from_utf8(xml).map_err(|e| malformed(path, xml, e.valid_up_to(), "not UTF-8".to_owned()))?;
+    let xml = &*encoding::decode(xml).map_err(|(offset, reason)| malformed(path, xml, offset, reason))?;
     let annotations = walk(xml, path)?;
     // The version comes first: other versions of the standard have other elements.
     let root: RawRoot = deserialize(xml, path)?;

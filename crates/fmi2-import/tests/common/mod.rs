@@ -56,9 +56,20 @@ impl Workshop {
 
     /// Compiles `tests/common/tank.c` with the given macros; `None` without a C compiler.
     pub fn compile(&self, defines: &[&str]) -> Option<Vec<u8>> {
+        self.compile_source("tank.c", defines)
+    }
+
+    /// The same for another source beside it, which may include it.
+    pub fn compile_source(&self, name: &str, defines: &[&str]) -> Option<Vec<u8>> {
         let output = self.path("tank.module");
-        let source = self.path("tank.c");
-        std::fs::write(&source, include_str!("tank.c")).unwrap();
+        for (name, text) in [
+            ("tank.c", include_str!("tank.c")),
+            ("talker.c", include_str!("talker.c")),
+            ("meddler.c", include_str!("meddler.c")),
+        ] {
+            std::fs::write(self.path(name), text).unwrap();
+        }
+        let source = self.path(name);
         let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
         let ran = Command::new(&compiler)
             .args(["-shared", "-fPIC", "-Wall", "-Werror", "-o"])

@@ -12,6 +12,12 @@
 #define TYPES "default"
 #endif
 
+#ifdef FORGETS
+/* A function of a library that is not named when this one is linked. */
+extern double FORGETS(double);
+double (*forgotten)(double) = FORGETS;
+#endif
+
 typedef struct {
   void (*logger)(void *, const char *, int, const char *, const char *, ...);
   void *(*allocate)(size_t, size_t);

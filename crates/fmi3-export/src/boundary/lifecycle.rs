@@ -75,18 +75,19 @@ pub unsafe fn instantiate_co_simulation<M: Exported<Fmi3>>(
     unsafe { lifecycle::create::<Fmi3, M>(&order::INSTANTIATE_CO_SIMULATION, &sink, wish, resources) }
 }
 
-/// Tells the logger that there is only co-simulation.
+/// Tells the logger, if logging is on, that there is only co-simulation.
 unsafe fn refuse<M: Exported<Fmi3>>(
     function: &Function,
     name: Fmi3String,
     token: Fmi3String,
+    logging_on: Fmi3Boolean,
     environment: Fmi3InstanceEnvironment,
     log_message: Option<LogMessageCallback>,
 ) -> Fmi3Instance {
     let wish = Wish {
         name,
         identifier: ("instantiationToken", token),
-        logging_on: false,
+        logging_on: truth(logging_on),
     };
     let sink = Sink::new(log_message, environment);
     let none = || Err(CallError::CoSimulationOnly);
@@ -99,13 +100,13 @@ pub unsafe fn instantiate_model_exchange<M: Exported<Fmi3>>(
     token: Fmi3String,
     _resource_path: Fmi3String,
     _visible: Fmi3Boolean,
-    _logging_on: Fmi3Boolean,
+    logging_on: Fmi3Boolean,
     environment: Fmi3InstanceEnvironment,
     log_message: Option<LogMessageCallback>,
 ) -> Fmi3Instance {
     let function = &order::INSTANTIATE_MODEL_EXCHANGE;
     // SAFETY: see the module.
-    unsafe { refuse::<M>(function, name, token, environment, log_message) }
+    unsafe { refuse::<M>(function, name, token, logging_on, environment, log_message) }
 }
 
 #[allow(clippy::too_many_arguments, reason = "those of the standard")]
@@ -114,7 +115,7 @@ pub unsafe fn instantiate_scheduled_execution<M: Exported<Fmi3>>(
     token: Fmi3String,
     _resource_path: Fmi3String,
     _visible: Fmi3Boolean,
-    _logging_on: Fmi3Boolean,
+    logging_on: Fmi3Boolean,
     environment: Fmi3InstanceEnvironment,
     log_message: Option<LogMessageCallback>,
     _clock_update: Option<ClockUpdateCallback>,
@@ -123,7 +124,7 @@ pub unsafe fn instantiate_scheduled_execution<M: Exported<Fmi3>>(
 ) -> Fmi3Instance {
     let function = &order::INSTANTIATE_SCHEDULED_EXECUTION;
     // SAFETY: see the module.
-    unsafe { refuse::<M>(function, name, token, environment, log_message) }
+    unsafe { refuse::<M>(function, name, token, logging_on, environment, log_message) }
 }
 
 /// Frees the instance in whatever phase it is. Null is fine.

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails shall say where")]
 
 mod both;
+mod creation;
 mod description;
 mod host;
 mod life_cycle;

@@ -2,7 +2,7 @@
 
 use interface::mission;
 use nalgebra::Vector3;
-use numerics::{Generator, Source, stream};
+use numerics::{Generator, Source, math, stream};
 use sensors::normal3;
 use serde::{Deserialize, Serialize};
 
@@ -51,7 +51,7 @@ impl Unmodelled {
         let draws = |source| stream(run.study_seed, run.run, source);
         let wander = (sigma > 0.0).then(|| {
             let mut draws = draws(Source::Wander);
-            let decay = (-grid / time).exp();
+            let decay = math::exp(-grid / time);
             Wander {
                 now: normal3(&mut draws) * sigma,
                 decay,

@@ -2,8 +2,8 @@
 //! each entry of the mission.
 
 use interface::mission::{Distribution, First, FirstTable, Magnitude, Vent};
-use nalgebra::{Rotation3, Unit, Vector3};
-use numerics::{Generator, Source};
+use nalgebra::{Unit, Vector3};
+use numerics::{Generator, Source, math, rotation};
 use rand::RngExt;
 use rand_distr::{Distribution as _, StandardNormal};
 
@@ -72,7 +72,7 @@ fn magnitude(magnitude: &Magnitude, sizes: &mut Generator) -> f64 {
     match drawn {
         Distribution::HalfNormal(sigma) => normal.abs() * sigma,
         Distribution::Normal([mean, sigma]) => mean + sigma * normal,
-        Distribution::Lognormal([mu, sigma]) => (mu + sigma * normal).exp(),
+        Distribution::Lognormal([mu, sigma]) => math::exp(mu + sigma * normal),
         Distribution::Uniform([low, _]) => *low,
     }
 }
@@ -87,8 +87,7 @@ fn spread(axis: &Vector3<f64>, sigma: f64, directions: &mut Generator) -> Vector
     helper[axis.iamin()] = 1.0;
     let across = Unit::new_normalize(axis.cross(&helper));
     let other = Unit::new_normalize(axis.cross(&across));
-    let turn =
-        Rotation3::from_axis_angle(&across, sigma * angles[0]) * Rotation3::from_axis_angle(&other, sigma * angles[1]);
+    let turn = rotation::about(&across, sigma * angles[0]) * rotation::about(&other, sigma * angles[1]);
     turn * axis
 }
 

@@ -2,7 +2,7 @@
 
 use super::rows::{Row, Seen};
 use nalgebra::{Matrix6, SMatrix, SVector};
-use numerics::spd;
+use numerics::{math, spd};
 use serde::{Deserialize, Serialize};
 
 /// A filter by its deviation from the centre: relative position and velocity, and in nine states an acceleration of which the
@@ -97,7 +97,7 @@ impl Likelihood {
 
     /// -1/2 (v' S^-1 v + ln (det S / det R)).
     pub(super) fn log(&self) -> f64 {
-        -0.5 * (self.nis + self.det.ln())
+        -0.5 * (self.nis + math::ln(self.det))
     }
 }
 

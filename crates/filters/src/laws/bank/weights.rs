@@ -1,5 +1,6 @@
 //! Weights of the members of a bank that do not exchange states (multiple-model adaptive estimation).
 
+use numerics::math;
 use serde::{Deserialize, Serialize};
 
 /// Multiplies weights by likelihoods, and makes them sum to one.
@@ -11,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub(in crate::laws) fn reweigh(weights: &mut [f64], log_likelihoods: &[f64], share: f64) {
     let most = log_likelihoods.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     for (weight, log) in weights.iter_mut().zip(log_likelihoods) {
-        *weight *= (1.0 - share) * (log - most).exp() + share;
+        *weight *= (1.0 - share) * math::exp(log - most) + share;
     }
     let sum: f64 = weights.iter().sum();
     weights.iter_mut().for_each(|weight| *weight /= sum);
@@ -44,7 +45,7 @@ impl Weights {
     /// * `log_likelihoods`: of the sample, one for each member; all equal when nothing was measured.
     /// * `share`: of samples that say nothing, as in [`reweigh`].
     pub(in crate::laws) fn update(&mut self, dt: f64, log_likelihoods: &[f64], share: f64) {
-        let back = -(-dt / self.memory).exp_m1();
+        let back = -math::exp_m1(-dt / self.memory);
         for (now, prior) in self.now.iter_mut().zip(&self.prior) {
             *now += (prior - *now) * back;
         }

@@ -8,6 +8,8 @@
 //! is solved again, until no eigenvalue violates its bound: then the answer of a programme with fewer constraints
 //! satisfies all of them, and is the minimum of the semidefinite one.
 
+use numerics::math;
+
 use super::conic::{self, Almost, NoAnswer};
 use crate::laws::correlation::FULL;
 use clarabel::solver::{SecondOrderConeT, SupportedConeT};
@@ -95,7 +97,7 @@ pub(super) fn minimise(h: &Matrix6<f64>, g: &Vector6<f64>, lower: f64, upper: f6
     // its diagonal, and a size that gives the linear term one.
     let side = Vector3::from_fn(|i, _| {
         let k = FULL.iter().position(|entry| *entry == (i, i)).unwrap_or(0);
-        h[(k, k)].powf(-0.25)
+        math::powf(h[(k, k)], -0.25)
     });
     if !side.iter().all(|s| s.is_finite() && *s > 0.0) || !g.iter().all(|v| v.is_finite()) {
         return Err(None);

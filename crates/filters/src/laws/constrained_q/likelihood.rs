@@ -6,6 +6,8 @@
 //! something else, so that neither a vent after a long quiet nor the quiet after it has to outweigh minutes of evidence. When the
 //! solver does not solve, or only almost does, the last weights stay and the case is counted.
 
+use numerics::math;
+
 use super::programme::{self, Bounds, MEMBERS, PerMember};
 use crate::error::FilterError;
 use crate::laws::adaptation::Setup;
@@ -110,7 +112,7 @@ impl Fading {
     }
 
     fn gather(&mut self, dt: f64, new: &[f64]) {
-        let keep = (-dt / self.memory).exp();
+        let keep = math::exp(-dt / self.memory);
         self.covered = self.covered * keep + self.memory * (1.0 - keep);
         for (sum, new) in self.sum.iter_mut().zip(new) {
             *sum = *sum * keep + new;
@@ -160,7 +162,7 @@ impl ByLikelihood {
     /// When a tunable is out of range, or the bounds leave no density.
     pub(super) fn new(setup: &Setup<'_>) -> Result<Self, FilterError> {
         let t = &setup.tunables;
-        let roots: PerMember = std::array::from_fn(|k| QUIETEST * 10_f64.powf(0.5 * k as f64));
+        let roots: PerMember = std::array::from_fn(|k| QUIETEST * math::powf(10.0, 0.5 * k as f64));
         let (q_min, q_max) = (t.real(Q_MIN.name)?, t.real(Q_MAX.name)?);
         let (long, short) = (t.real(LONG_MEMORY.name)?, t.real(SHORT_MEMORY.name)?);
         if short > long {
@@ -181,7 +183,7 @@ impl ByLikelihood {
         }
         // The factor of a study of mistuning is on the bounds as it is on the members.
         let unit = setup.units.root_acceleration_density();
-        let log = |q: f64| ((q / unit).powi(2) * setup.off_nominal).ln();
+        let log = |q: f64| math::ln((q / unit).powi(2) * setup.off_nominal);
         let white = Decades::new(&roots, setup);
         let mut law = Self {
             centre: Centre::new(setup.r, 0.0),

@@ -11,6 +11,8 @@
 //! cuts that nearly coincide let programmes end so now and then, their answers stay within what the tests of [`full`] allow, and a
 //! regression on a few innovations is known by far less than that.
 
+use numerics::math;
+
 use super::{diagonal, full};
 use crate::error::FilterError;
 use crate::jerk;
@@ -101,7 +103,7 @@ impl ByRegression {
         Ok(Self {
             window: Window::new(setup)?,
             r_w: t.real("r_w")?,
-            fade: (-1.0 / t.real("memory")?).exp(),
+            fade: math::exp(-1.0 / t.real("memory")?),
             lower,
             upper,
             evidence: if full {

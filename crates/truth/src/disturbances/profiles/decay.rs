@@ -1,5 +1,6 @@
 //! A tank that empties: full size at the begin, falling exponentially.
 
+use numerics::math;
 use serde::{Deserialize, Serialize};
 
 use super::Shape;
@@ -13,6 +14,6 @@ pub struct Decay {
 
 impl Shape for Decay {
     fn impulse(&self, t: f64, _duration: f64) -> f64 {
-        -self.time * (-t / self.time).exp_m1()
+        -self.time * math::exp_m1(-t / self.time)
     }
 }

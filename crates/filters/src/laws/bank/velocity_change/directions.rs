@@ -5,6 +5,8 @@
 //! that were found gather in *lobes* (von Mises-Fisher): the sum of unit vectors, each by its precision, points to the middle of a
 //! lobe, and its length is the precision of that.
 
+use numerics::math;
+
 use super::axes::Axes;
 use super::hypothesis::{Prior, SIZES};
 use nalgebra::{Matrix3, Vector3};
@@ -111,7 +113,7 @@ impl Set {
         let fresh = NEW / total / (4.0 * PI);
         let sum = shares.iter().sum::<f64>() + fresh;
         let weight: f64 = weights.iter().sum();
-        self.ln_evidence += weight * (4.0 * PI * sum).ln();
+        self.ln_evidence += weight * math::ln(4.0 * PI * sum);
         shares.iter_mut().for_each(|share| *share /= sum);
         if fresh / sum > 0.5 {
             if self.lobes.len() < MOST || self.give_way(weight) {
@@ -181,7 +183,7 @@ impl Lobe {
 /// * `cosine`: of its angle to the middle; `variance`: of that angle where it is small, rad^2: the inverse of the concentration.
 fn von_mises_fisher(cosine: f64, variance: f64) -> f64 {
     let k = 1.0 / variance;
-    k * (k * (cosine - 1.0)).exp() / (2.0 * PI * (1.0 - (-2.0 * k).exp()))
+    k * math::exp(k * (cosine - 1.0)) / (2.0 * PI * (1.0 - math::exp(-2.0 * k)))
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! One past time at which the velocity may have changed.
 
+use numerics::math;
+
 use super::super::centre::{Shared, white};
 use super::super::member::{Likelihood, Member, Taken};
 use super::super::rows::Row;
@@ -144,7 +146,7 @@ impl Hypothesis {
 
     /// By what the mass is to be multiplied for its weight, where that of "no change" is exp(-`ln_scale`).
     pub(super) fn factor(&self, ln_scale: f64) -> f64 {
-        (self.span + self.due) * (self.exponent - self.ln_base - ln_scale).exp()
+        (self.span + self.due) * math::exp(self.exponent - self.ln_base - ln_scale)
     }
 
     /// The next one goes, and its time is this one's.
@@ -174,11 +176,11 @@ impl Hypothesis {
         for prior in self.priors.iter().rev().filter(|prior| prior.rate > 0.0) {
             let posterior = self.given(prior);
             if posterior.exponent > top {
-                let less = (top - posterior.exponent).exp();
+                let less = math::exp(top - posterior.exponent);
                 (top, sum) = (posterior.exponent, sum * less);
                 part.scale(less);
             }
-            let mass = prior.rate * (posterior.exponent - top).exp() / posterior.det.sqrt();
+            let mass = prior.rate * math::exp(posterior.exponent - top) / posterior.det.sqrt();
             sum += mass;
             if mass > NEGLIGIBLE * sum {
                 part.weights[prior.size] += mass;

@@ -19,7 +19,7 @@ use axes::Axes;
 use directions::Directions;
 use hypothesis::{Hypothesis, NEGLIGIBLE, Part, SIZES};
 use nalgebra::{Matrix6, Vector6};
-use numerics::spd;
+use numerics::{math, spd};
 use schedule::Schedule;
 use serde::{Deserialize, Serialize};
 use watched::{Watched, found};
@@ -201,7 +201,7 @@ impl VelocityChanges {
         let most = self.open.iter().map(exponent).fold(0.0, f64::max);
         let weight = |hypothesis: &Hypothesis| hypothesis.mass * hypothesis.factor(most);
         let sum: f64 = self.open.iter().map(weight).sum();
-        most + ((-most).exp() + sum).ln()
+        most + math::ln(math::exp(-most) + sum)
     }
 
     /// What the data now say of every hypothesis.
@@ -211,7 +211,7 @@ impl VelocityChanges {
         self.weighed.parts.extend(parts);
         let ln_total = self.ln_total();
         self.weighed.ln_total = ln_total;
-        self.weighed.quiet = (-ln_total).exp();
+        self.weighed.quiet = math::exp(-ln_total);
         for (part, hypothesis) in self.weighed.parts.iter_mut().zip(&self.open) {
             part.scale(hypothesis.factor(ln_total));
         }
@@ -344,7 +344,7 @@ impl VelocityChanges {
             self.quiet.dx += by;
             self.quiet.p += spd::carried(&oldest.e, &part.second).1;
             self.quiet.p.ger(-1.0, &by, &by, 1.0);
-            let more = (weight / self.weighed.quiet).ln_1p();
+            let more = math::ln_1p(weight / self.weighed.quiet);
             self.open.iter_mut().for_each(|hypothesis| hypothesis.ln_base += more);
             self.weighed.quiet += weight;
         }

@@ -4,6 +4,7 @@
 //! one T after any of them; what was expected in this way and did not come speaks against it. So the chance of a change a lag
 //! after one that was found is (pairs with this lag) / (1 + changes after which it could have come).
 
+use numerics::math;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -69,7 +70,7 @@ impl Schedule {
                 let variance = event.variance + later.variance + earlier.variance + length * length / 6.0;
                 let off = lag - (later.at - earlier.at);
                 if off * off < SAME * SAME * variance {
-                    let weight = later.weight * earlier.weight * (-off * off / (2.0 * variance)).exp();
+                    let weight = later.weight * earlier.weight * math::exp(-off * off / (2.0 * variance));
                     pairs += weight;
                     density += weight / (TAU * variance).sqrt();
                 }
