@@ -64,8 +64,8 @@ pub fn fmu_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.fmu"))
 }
 
-/// Builds what has changed and packs both FMUs into a folder, their FMI 3.0 twins into [`fmi3::folder`] of it; a file whose contents
-/// would be the same stays.
+/// Builds what has changed and packs both FMUs into a folder, their FMI 3.0 twins into [`fmi3::folder`] of it and reference results as
+/// the FMI cross-check rules name them into `cross-check`; a file whose contents would be the same stays.
 ///
 /// * `mission`: a mission file that both run unless told otherwise; it makes them FMUs with identifiers of their own.
 ///
