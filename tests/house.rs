@@ -263,6 +263,7 @@ fn arrows_between_crates_go_one_way() {
         ("filters", &["interface", "numerics", "astro", "sensors"]),
         ("stats", &["numerics"]),
         ("html-report", &["stats"]),
+        ("ssp", &[]),
         ("fmi-model", &[]),
         ("fmi2-abi", &[]),
         ("fmi3-abi", &[]),
@@ -288,6 +289,7 @@ fn arrows_between_crates_go_one_way() {
                 "cosim",
                 "study",
                 "html-report",
+                "ssp",
             ],
         ),
         (

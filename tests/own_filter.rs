@@ -6,6 +6,7 @@
 mod common;
 
 use common::{harness, harness_ok, read_csv, root, skipped, virtual_environment};
+use ssp::{Component, Connection, Connector, Element, End, Kind, Package, System, SystemStructure};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
@@ -163,6 +164,104 @@ fn names_of_ones_own_are_read_from_a_file() {
     let mapped = errors(&folder.path().join("mapped"), &packed, &["--map-file", text(&names)]);
     // Two LiDAR sigmas of 0.08 m and 0.04 deg at some km: metres, not the kilometres of a filter that sees nothing.
     assert!(mapped[0] > 0.05 && mapped[0] < 20.0, "{mapped:?}");
+}
+
+/// The same stranger in a system inside a system structure: connections and connectors of the systems say what its names stand for.
+#[test]
+fn a_system_structure_says_what_names_stand_for() {
+    if !has_tools("ssp") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let theirs = [
+        ("modelDescription.xml", "est.r_tc_n", "x_hat"),
+        ("modelDescription.xml", "est.v_tc_n", "v_hat"),
+        ("modelDescription.xml", "lidar.range", "rho"),
+    ];
+    let packed = pack_c(folder.path(), &theirs);
+    let names = folder.path().join("names.toml");
+    let table = "[mine]\nx_hat = \"est.r_tc_n\"\nv_hat = \"est.v_tc_n\"\nrho = \"lidar.range\"\n";
+    std::fs::write(&names, table).unwrap();
+    let mapped = errors(&folder.path().join("mapped"), &packed, &["--map-file", text(&names)]);
+
+    let connector = |name: &str, kind| Connector {
+        name: name.to_owned(),
+        kind,
+        data: None,
+    };
+    let mut structure = SystemStructure::new("theirs");
+    let mut world = Component::new("world", "resources/world.fmu");
+    let mut filter = Component::new("filter", "resources/filter.fmu");
+    let mut guest = System {
+        name: "guest".to_owned(),
+        ..System::default()
+    };
+    let top = &mut structure.system;
+    let matrix = (1..=3).flat_map(|i| (1..=3).map(move |j| format!("dcm_bc_n[{i},{j}]")));
+    let others = [
+        "sample_count",
+        "sample_time",
+        "lidar.valid",
+        "lidar.range",
+        "lidar.azimuth",
+        "lidar.elevation",
+    ];
+    for name in others.into_iter().map(str::to_owned).chain(matrix) {
+        let own = if name == "lidar.range" { "rho" } else { &name };
+        world.connectors.push(connector(&name, Kind::Output));
+        guest.connectors.push(connector(own, Kind::Input));
+        filter.connectors.push(connector(own, Kind::Input));
+        top.connections
+            .push(Connection::new(End::of("world", &name), End::of("guest", own)));
+        guest
+            .connections
+            .push(Connection::new(End::system(own), End::of("filter", own)));
+    }
+    for (own, shared) in [("x_hat", "est.r_tc_n"), ("v_hat", "est.v_tc_n")] {
+        for i in 1..=3 {
+            let (own, shared) = (format!("{own}[{i}]"), format!("{shared}[{i}]"));
+            filter.connectors.push(connector(&own, Kind::Output));
+            guest.connectors.push(connector(&own, Kind::Output));
+            top.connectors.push(connector(&shared, Kind::Output));
+            guest
+                .connections
+                .push(Connection::new(End::of("filter", &own), End::system(&own)));
+            top.connections
+                .push(Connection::new(End::of("guest", &own), End::system(&shared)));
+        }
+    }
+    guest.add(filter);
+    top.add(world);
+    top.elements.push(Element::System(guest));
+    let files = std::collections::BTreeMap::from([
+        (
+            "resources/world.fmu".to_owned(),
+            std::fs::read(common::fmu("fmu-truth")).unwrap(),
+        ),
+        ("resources/filter.fmu".to_owned(), std::fs::read(&packed).unwrap()),
+    ]);
+    let ssp = folder.path().join("theirs.ssp");
+    std::fs::write(&ssp, Package::bytes(&structure, &files).unwrap()).unwrap();
+
+    let out = folder.path().join("told");
+    harness_ok(&[
+        "compare",
+        "--ssp",
+        text(&ssp),
+        "--runs",
+        "2",
+        "--duration",
+        "1500",
+        "--out",
+        text(&out),
+    ]);
+    let rows = read_csv(&out.join("runs.csv"));
+    let found: Vec<f64> = rows
+        .iter()
+        .filter(|row| row["filter"] == "guest_filter")
+        .flat_map(|row| ["pos_rmse_m", "vel_rmse_m_s"].map(|column| row[column].parse().unwrap()))
+        .collect();
+    assert_eq!(found, mapped);
 }
 
 /// PythonFMU in an environment of its own; `None` without Python. Tests of this program run side by side, and one alone makes it.

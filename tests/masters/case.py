@@ -16,7 +16,7 @@ class Case:
     """What a case is made of.
 
     fmus: paths in the order of a Gauss-Seidel master. settings: text by variable, by model. read: [model, variable]
-    each.
+    each. archive: an SSP archive that is there already, with elements of these names and values of this set in it.
     """
 
     name: str
@@ -26,14 +26,18 @@ class Case:
     step: float
     stop: float
     folder: str
-    archive: str = field(default="")
+    archive: str = ""
+    elements: list = field(default_factory=list)
+    values: str = ""
 
     def write(self):
-        """Writes the SSP archive of the system and the case beside it; returns the path of the latter."""
+        """Writes the SSP archive of the system, unless it has one, and the case; returns the path of the latter."""
         folder = Path(self.folder)
         folder.mkdir(parents=True, exist_ok=True)
-        self.archive = str(folder / f"{self.name}.ssp")
-        ssp.write(self.archive, self.fmus, self.settings, {name for _, name in self.read})
+        if not self.archive:
+            self.archive = str(folder / f"{self.name}.ssp")
+            ssp.write(self.archive, self.fmus, self.settings, {name for _, name in self.read})
+            self.values = self.name
         path = folder / f"{self.name}.json"
         path.write_text(json.dumps(asdict(self)))
         return path
@@ -47,7 +51,8 @@ class Case:
         return round(self.stop / self.step)
 
     def models(self):
-        return {model.name: model for model in map(ssp.Model, self.fmus)}
+        models = [ssp.Model(path) for path in self.fmus]
+        return dict(zip(self.elements or [model.name for model in models], models))
 
     def kinds(self):
         """FMI type of each value that is read."""

@@ -26,6 +26,9 @@ WORLDS = (
     ("nrho_venting", "milton", {}),
     ("formation", "hybrid", {}),
 )
+# What the archive of `pack` is bound to: scenario, filter, seed and run; and who loads it.
+PACKED = ("leo_venting", "hybrid", 1, 0)
+LOADERS = ("fmpy_ssp", "libcosim", "ecos")
 AXES = {1: "x", 2: "y", 3: "z"}
 # Estimates that a replay has, in both frames: name here, pattern of its column.
 INERTIAL = {
@@ -91,13 +94,13 @@ class Tools:
             self.schemes += [(module, *line.rsplit("\t", 1)) for line in schemes]
 
 
-def replay(work, harness, scenario, filter_name, settings):
+def replay(work, harness, scenario, filter_name, settings, seed=SEED, run=RUN):
     """Estimates of the harness, by the names of the FMU."""
     out = work / "replay.csv"
     options = [f"--set=fmu-nav.{name}={value}" for name, value in settings.items()]
     command = [harness[0], "replay", *harness[1:], "--scenario", scenario, "--filters", filter_name, *options]
     subprocess.run(
-        [*command, "--run", str(RUN), "--seed", str(SEED), "--out", out], check=True, stdout=subprocess.DEVNULL
+        [*command, "--run", str(run), "--seed", str(seed), "--out", out], check=True, stdout=subprocess.DEVNULL
     )
     names = LVLH if scenario == "formation" else INERTIAL
     rows = []
@@ -137,6 +140,32 @@ def open_loop(work, harness, tools):
                 same = same and not found
                 table.setdefault((scheme, order, step), []).append(found or f"equal, {len(rows)}")
                 print(f"{scheme} {step:g} s {scenario} {filter_name}: {found or 'equal'}", flush=True)
+    return table, same
+
+
+def packed(work, harness, tools):
+    """Verdict of each master that loads the archive of `pack`, which holds both FMUs and their values."""
+    fmus = [str(work / "fmu" / f"{name}.fmu") for name in ("fmu-truth", "fmu-nav")]
+    archive = str(work / "fmu" / "relative-navigation.ssp")
+    scenario, filter_name, seed, run = PACKED
+    reference = replay(work, harness, scenario, filter_name, {}, seed, run)
+    # For a tool that reads no bindings; the others find the same in the archive.
+    both = {"study_seed": str(seed), "run": str(run), "scenario_index": index(fmus[0], "scenario", scenario)}
+    settings = {"truth": both, "nav": both | {"filter_index": index(fmus[1], "filter", filter_name)}}
+    read = [["nav", name] for name in ["est.count", *elements(INERTIAL)]]
+    table, same = {}, True
+    for module, scheme, order in tools.schemes:
+        if module not in LOADERS:
+            continue
+        for step in STEPS:
+            case = Case("packed", fmus, settings, read, step, STOP, str(work / "case"), archive, list(settings), scenario)
+            rows = fly(work, module, scheme, case)
+            found = difference(rows, reference)
+            if len(rows) != len(reference) - 1:
+                found = f"{len(rows)} samples, not {len(reference) - 1}"
+            same = same and not found
+            table[scheme, order, step] = [found or f"equal, {len(rows)}"]
+            print(f"{scheme} {step:g} s packed archive: {found or 'equal'}", flush=True)
     return table, same
 
 
@@ -184,13 +213,14 @@ def markdown(heads, table):
     ]
 
 
-def document(tools, opened, closed):
+def document(tools, opened, archived, closed):
     """The rendered document."""
     text = (HERE / "masters.md.in").read_text()
     parts = {
         "@versions@": ", ".join(tools.versions),
         "@not_here@": "\n".join(f"* {name}: {why}." for name, why in NOT_HERE.items()),
         "@open@": "\n".join(markdown([f"`{world[0]}`, `{world[1]}`" for world in WORLDS], opened)),
+        "@packed@": "\n".join(markdown(["`{}`, `{}`".format(*PACKED)], archived)),
         "@closed@": "\n".join(markdown(["closed loop"], closed)),
         "@stop@": f"{STOP:g}",
     }
@@ -205,13 +235,14 @@ def main(work, harness, out):
     for name, why in NOT_HERE.items():
         print(f"SKIPPED {name}: {why}")
     opened, open_same = open_loop(work, shlex.split(harness), tools)
+    archived, archived_same = packed(work, shlex.split(harness), tools)
     closed, closed_same = closed_loop(work, tools)
-    if not (open_same and closed_same):
+    if not (open_same and archived_same and closed_same):
         return 1
     if tools.skipped:
         print(f"{out} stays as it is: not every master is here")
         return 0
-    text = document(tools, opened, closed)
+    text = document(tools, opened, archived, closed)
     before = out.read_text() if out.exists() else ""
     out.write_text(text)
     if text != before:

@@ -338,7 +338,7 @@ pub struct MissionCheckArgs {
 /// `pack`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  trade-harness pack\n  trade-harness pack --out fmus\n  trade-harness pack --mission my_mission.toml --out fmus\n  trade-harness pack --platforms all\n  trade-harness pack --platforms linux64,win64 --out fmus"
+    after_help = "fmu-truth.fmu, fmu-nav.fmu, and relative-navigation.ssp, both as one system with the values of every mission.\n\nExamples:\n  trade-harness pack\n  trade-harness pack --out fmus\n  trade-harness pack --mission my_mission.toml --out fmus\n  trade-harness pack --platforms all\n  trade-harness pack --platforms linux64,win64 --out fmus"
 )]
 pub struct PackArgs {
     /// Put this mission into both FMUs as the one they run unless told otherwise
@@ -361,7 +361,7 @@ pub struct PackArgs {
 /// `compare`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  trade-harness compare\n  trade-harness compare --scenario leo_venting,nrho_venting --runs 200 --seed 7\n  trade-harness compare --filters snc,milton@consistent --set fmu-truth.vent.scale=10\n  trade-harness compare --grid fmu-truth.lidar.dropout_probability=0,0.2 --runs 50\n  trade-harness compare --study studies/vents_ten_times.toml --out results/vents"
+    after_help = "Examples:\n  trade-harness compare\n  trade-harness compare --scenario leo_venting,nrho_venting --runs 200 --seed 7\n  trade-harness compare --filters snc,milton@consistent --set fmu-truth.vent.scale=10\n  trade-harness compare --grid fmu-truth.lidar.dropout_probability=0,0.2 --runs 50\n  trade-harness compare --study studies/vents_ten_times.toml --out results/vents\n  trade-harness compare --ssp target/fmu/relative-navigation.ssp --runs 20"
 )]
 pub struct CompareArgs {
     /// Which worlds.
@@ -373,6 +373,10 @@ pub struct CompareArgs {
     /// A study file, which says all that the options say and more; options go before it
     #[arg(long = "study", value_name = "FILE")]
     pub file: Option<PathBuf>,
+    /// A system structure, archive or folder, in the place of --scenario, --filters, --truth, --nav and --drive: the component with
+    /// outputs truth.* is the world, those with est.* are filters, others drivers; options go before what its bindings say
+    #[arg(long, value_name = "FILE.ssp", conflicts_with_all = ["file", "truth", "foreign", "drivers", "fmu_dir"])]
+    pub ssp: Option<PathBuf>,
     /// Folder for the results [default: results/compare, or results/NAME for the study file NAME.toml]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

@@ -17,6 +17,19 @@ pub enum HarnessError {
     /// An FMU that cannot be used, or a name or value it does not know.
     #[error(transparent)]
     Import(Box<ImportError>),
+    /// A system structure that cannot be read or written.
+    #[error(transparent)]
+    Ssp(#[from] ssp::SspError),
+    /// A system structure that no study can represent.
+    #[error("{}: {element}: {problem}", path.display())]
+    Element {
+        /// The structure.
+        path: PathBuf,
+        /// Component, connector, connection or binding.
+        element: String,
+        /// What is in the way, and what to do.
+        problem: String,
+    },
     /// An FMU that cannot be checked.
     #[error(transparent)]
     Check(#[from] fmi2_check::CheckError),

@@ -8,7 +8,7 @@
 //!
 //! Start reading at [`commands`], which is what the command line offers; [`report`] writes the tables, [`tuning`] searches
 //! for a filter's best parameters, [`regret`] holds laws against the best constant, [`claims`] and [`reproduce`] hold what the papers print beside what the studies find, and
-//! [`pack`] makes our FMUs.
+//! [`pack`] makes our FMUs, and [`structure`] one system of them and a study of anybody's.
 
 pub mod bound;
 pub mod claims;
@@ -27,6 +27,7 @@ pub mod report;
 pub mod reproduce;
 pub mod requirements;
 pub mod store;
+pub mod structure;
 pub mod temporary;
 pub mod tuning;
 

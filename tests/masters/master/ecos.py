@@ -1,7 +1,6 @@
 """NTNU's ecos, through ecospy."""
 
 from importlib.metadata import version as installed
-from pathlib import Path
 
 from ecospy import EcosLib, EcosSimulation
 
@@ -18,7 +17,7 @@ def points(case, scheme):
         readers = {"Real": simulation.get_real, "Integer": simulation.get_integer, "Boolean": simulation.get_bool}
         read = [(readers[kind], f"{model}::{name}") for (model, name), kind in zip(case.read, case.kinds())]
         # It applies the sets of parameters that have this name, and no others.
-        simulation.init(parameter_set=Path(case.archive).stem)
+        simulation.init(parameter_set=case.values)
         for _ in range(case.steps):
             simulation.step()
             yield [reader(name) for reader, name in read]

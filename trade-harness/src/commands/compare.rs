@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use study::{Engine, Flown, Journal, Models, Output, Plan, Shard, rehearse};
+use study::{Engine, Flown, Journal, Models, Output, Plan, Shard, read_mappings, rehearse};
 
 use super::finished::{Finished, finish};
 use super::kept::{KEPT, Kept, shard_folder};
@@ -16,11 +16,23 @@ use crate::cli::CompareArgs;
 use crate::format::json_bytes;
 use crate::requirements;
 use crate::store::{Claim, StudyFolder, identity};
+use crate::structure::{Told, read};
 
 pub(super) fn compare(args: &CompareArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     end_when_asked()?;
-    let plan = asked(args)?;
-    let models = models(&plan, &args.study.build)?;
+    let told = match &args.ssp {
+        Some(path) => Some(structure(args, path)?),
+        None => None,
+    };
+    let (told, own) = told.map_or((None, None), |told| (Some(told.plan), Some(told.own)));
+    let plan = asked(args, told)?;
+    let models = match &own {
+        Some(own) => {
+            plan.check()?;
+            Models::of(&plan, own)?
+        }
+        None => models(&plan, &args.study.build)?,
+    };
     let claim = match (args.folder.resume, args.folder.force) {
         (true, _) => Claim::Resume,
         (_, true) => Claim::Force,
@@ -160,9 +172,24 @@ pub(super) fn carry_out(plan: &Plan, models: &Models, way: &Way, out: &mut Out<'
     })
 }
 
-/// The plan of the study file, if there is one, with what the options say.
-fn asked(args: &CompareArgs) -> Result<Plan, HarnessError> {
-    let told = args.file.as_deref().map(Plan::read).transpose()?;
+/// What a system structure says; its FMUs are put beside the folder of the results, where a repeat finds them.
+fn structure(args: &CompareArgs, path: &Path) -> Result<Told, HarnessError> {
+    let mut folder = results(args, &Plan::default()).into_os_string();
+    folder.push(".fmus");
+    let named = !args.worlds.scenarios.is_empty() || !args.worlds.missions.is_empty();
+    let mut mappings = args.study.mappings.clone();
+    for file in &args.study.map_files {
+        mappings.extend(read_mappings(file)?);
+    }
+    let told = read(path, folder.as_ref(), &mappings, named)?;
+    told.notes.iter().for_each(|text| note(&format!("note: {text}")));
+    Ok(told)
+}
+
+/// The plan of the study file or system structure, if there is one, with what the options say.
+fn asked(args: &CompareArgs, told: Option<Plan>) -> Result<Plan, HarnessError> {
+    let file = args.file.as_deref().map(Plan::read).transpose()?;
+    let told = file.or(told);
     let plan = plan_of(told.unwrap_or_default(), &args.study, &args.worlds, &args.work)?;
     let plan = Plan {
         isolation: args.isolation.changed(&plan.isolation),
@@ -188,7 +215,7 @@ fn asked(args: &CompareArgs) -> Result<Plan, HarnessError> {
 /// Folder of the results.
 fn results(args: &CompareArgs, plan: &Plan) -> PathBuf {
     let own = || {
-        let stem = args.file.as_deref().and_then(Path::file_stem);
+        let stem = args.file.as_deref().or(args.ssp.as_deref()).and_then(Path::file_stem);
         Path::new("results").join(stem.unwrap_or("compare".as_ref()))
     };
     args.out.clone().or(plan.output.folder.clone()).unwrap_or_else(own)

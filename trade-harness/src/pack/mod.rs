@@ -26,6 +26,7 @@ use crate::HarnessError;
 use crate::digest::of_bytes;
 use crate::output::write_whole;
 use crate::platforms::{Call, Platform, joined, recipes};
+use crate::structure;
 
 /// The description, first in an archive, so that whoever reads one as a stream has it at once.
 const DESCRIPTION: &str = "modelDescription.xml";
@@ -64,8 +65,8 @@ pub fn fmu_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.fmu"))
 }
 
-/// Builds what has changed and packs both FMUs into a folder, their FMI 3.0 twins into [`fmi3::folder`] of it and reference results as
-/// the FMI cross-check rules name them into `cross-check`; a file whose contents would be the same stays.
+/// Builds what has changed and packs both FMUs into a folder, with the system of them, their FMI 3.0 twins into [`fmi3::folder`] of it
+/// and reference results as the FMI cross-check rules name them into `cross-check`; a file whose contents would be the same stays.
 ///
 /// * `mission`: a mission file that both run unless told otherwise; it makes them FMUs with identifiers of their own.
 ///
@@ -145,6 +146,11 @@ pub fn pack_for(
             keep(&folder.join("cross-check").join(name).join(file), contents)?;
         }
     }
+    let written = structure::write(folder, world.as_ref())?;
+    packed.push(Packed {
+        path: folder.join(structure::SSP),
+        written,
+    });
     Ok(packed)
 }
 

@@ -1,0 +1,23 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where to start
+//!
+//! With [`Package::open`] for a file or folder, and [`flatten`] for what a master needs: components, what leads from which output to
+//! which input, and the values of each component.
+
+mod error;
+mod flat;
+mod model;
+mod package;
+mod parameters;
+mod read;
+mod tree;
+mod write;
+
+pub use error::SspError;
+pub use flat::{Flat, FlatComponent, FlatConnection, FlatParameter, FlatPort, flatten};
+pub use model::{
+    BaseUnit, Binding, Component, Connection, Connector, DataType, Element, End, Experiment, FMU, Kind, Linear,
+    MappingEntry, Parameter, ParameterSet, System, SystemStructure, Unit, Value,
+};
+pub use package::{Package, STRUCTURE};

@@ -1,0 +1,254 @@
+//! The archive, or the folder that it would unpack to.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, BufReader, Cursor, Read, Write};
+use std::path::{Component as Step, Path, PathBuf};
+
+use percent_encoding::percent_decode_str;
+use zip::result::ZipError;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
+
+use crate::SspError;
+use crate::model::{Element, System, SystemStructure};
+use crate::read::structure;
+
+/// Name of the structure's file.
+pub const STRUCTURE: &str = "SystemStructure.ssd";
+
+/// Most bytes of a file that is read.
+const LIMIT: u64 = 4 << 30;
+
+/// An opened SSP.
+#[derive(Debug)]
+pub struct Package {
+    path: PathBuf,
+    structure: SystemStructure,
+    place: Place,
+}
+
+#[derive(Debug)]
+enum Place {
+    Archive(ZipArchive<BufReader<File>>),
+    /// Folder of the `.ssd` file.
+    Folder(PathBuf),
+}
+
+impl Package {
+    /// Opens an archive, a folder with [`STRUCTURE`] in it, or an `.ssd` file in its folder, and reads the structure.
+    ///
+    /// # Errors
+    /// What cannot be read, and what the files say that is not allowed, with file and line.
+    pub fn open(path: &Path) -> Result<Self, SspError> {
+        let failed = |source| SspError::Read {
+            path: path.to_owned(),
+            source,
+        };
+        let no_archive = |error: ZipError| SspError::NotAnArchive {
+            path: path.to_owned(),
+            reason: error.to_string(),
+        };
+        let is_structure = path.extension().is_some_and(|extension| extension == "ssd");
+        let (mut place, name) = if path.is_dir() {
+            (Place::Folder(path.to_owned()), STRUCTURE.to_owned())
+        } else if is_structure {
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            (Place::Folder(path.parent().unwrap_or(Path::new("")).to_owned()), name)
+        } else {
+            let file = File::open(path).map_err(failed)?;
+            let archive = ZipArchive::new(BufReader::new(file)).map_err(no_archive)?;
+            (Place::Archive(archive), STRUCTURE.to_owned())
+        };
+        let bytes = match place.bytes(path, &name) {
+            Ok(bytes) => bytes,
+            Err(Lost::Absent) => {
+                return Err(SspError::NotAnArchive {
+                    path: path.to_owned(),
+                    reason: format!("it has no {name}"),
+                });
+            }
+            Err(Lost::Other(error)) => return Err(error),
+        };
+        let structure = structure(&name, &bytes, &mut |by, uri| place.source(path, by, uri))?;
+        Ok(Self {
+            path: path.to_owned(),
+            structure,
+            place,
+        })
+    }
+
+    /// What the files say.
+    pub fn structure(&self) -> &SystemStructure {
+        &self.structure
+    }
+
+    /// Where it was opened.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The bytes of a file that the structure names.
+    ///
+    /// * `by`: who names it, for messages.
+    /// * `uri`: as it stands there.
+    ///
+    /// # Errors
+    /// [`SspError::Source`], [`SspError::Missing`], [`SspError::TooLarge`], [`SspError::Read`].
+    pub fn source(&mut self, by: &str, uri: &str) -> Result<Vec<u8>, SspError> {
+        self.place.source(&self.path, by, uri)
+    }
+
+    /// An archive of a structure and its files, which depends on names and contents alone. The structure stands first, then the
+    /// values that its bindings name, then the other files in the order of their names; what is an archive itself is stored as it is.
+    ///
+    /// * `files`: contents by name, as `resources/model.fmu`.
+    ///
+    /// # Errors
+    /// [`SspError::Zip`]; [`SspError::Structure`] for a file of values that two bindings fill differently.
+    pub fn bytes(structure: &SystemStructure, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>, SspError> {
+        let mut named = BTreeMap::new();
+        values(&structure.system, &mut named)?;
+        let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+        let mut add = |name: &str, contents: &[u8]| -> Result<(), ZipError> {
+            let archive = contents.starts_with(b"PK\x03\x04");
+            let method = if archive {
+                CompressionMethod::Stored
+            } else {
+                CompressionMethod::Deflated
+            };
+            let options = SimpleFileOptions::default()
+                .compression_method(method)
+                .last_modified_time(zip::DateTime::default())
+                .unix_permissions(0o644);
+            writer.start_file(name, options)?;
+            Ok(writer.write_all(contents)?)
+        };
+        add(STRUCTURE, structure.to_xml().as_bytes())?;
+        for (name, text) in &named {
+            add(name, text.as_bytes())?;
+        }
+        for (name, contents) in files.iter().filter(|(name, _)| !named.contains_key(*name)) {
+            add(name, contents)?;
+        }
+        Ok(writer.finish()?.into_inner())
+    }
+}
+
+/// The files of values that bindings name, with their texts.
+fn values(system: &System, found: &mut BTreeMap<String, String>) -> Result<(), SspError> {
+    let own = system.elements.iter().flat_map(|element| match element {
+        Element::Component(component) => component.bindings.as_slice(),
+        Element::System(_) => &[],
+    });
+    for binding in system.bindings.iter().chain(own) {
+        let Some(source) = &binding.source else { continue };
+        let text = binding.values.to_xml();
+        if found.get(source).is_some_and(|other| *other != text) {
+            return Err(SspError::structure(
+                format!("binding '{source}'"),
+                "stands twice with different values; give each set a file of its own",
+            ));
+        }
+        found.insert(source.clone(), text);
+    }
+    for element in &system.elements {
+        if let Element::System(inner) = element {
+            values(inner, found)?;
+        }
+    }
+    Ok(())
+}
+
+/// Why there are no bytes.
+enum Lost {
+    Absent,
+    Other(SspError),
+}
+
+impl Place {
+    /// A file that a URI names.
+    fn source(&mut self, path: &Path, by: &str, uri: &str) -> Result<Vec<u8>, SspError> {
+        let wrong = |why| SspError::Source {
+            by: by.to_owned(),
+            uri: uri.to_owned(),
+            why,
+        };
+        let missing = || SspError::Missing {
+            path: path.to_owned(),
+            by: by.to_owned(),
+            name: uri.to_owned(),
+        };
+        let decode = |text: &str| percent_decode_str(text).decode_utf8().map(|text| text.into_owned());
+        let text = decode(uri).map_err(|_| wrong("is no URI of UTF-8 text"))?;
+        if let Some(rest) = text.strip_prefix("file:") {
+            let absolute = match rest.strip_prefix("//") {
+                None => rest,
+                Some(rest) => rest.strip_prefix("localhost").unwrap_or(rest),
+            };
+            if !Path::new(absolute).is_absolute() {
+                return Err(wrong("has no absolute path"));
+            }
+            return match read_limited(File::open(absolute), path, uri) {
+                Err(Lost::Absent) => Err(missing()),
+                Err(Lost::Other(error)) => Err(error),
+                Ok(bytes) => Ok(bytes),
+            };
+        }
+        // A scheme has letters before its colon, and no slash.
+        let scheme = text.split_once(':').is_some_and(|(scheme, _)| !scheme.contains('/'));
+        if scheme {
+            return Err(wrong("is of another scheme than file:"));
+        }
+        let relative = text.strip_prefix("./").unwrap_or(&text);
+        let climbs = Path::new(relative)
+            .components()
+            .any(|step| !matches!(step, Step::Normal(_)));
+        if relative.is_empty() || climbs {
+            return Err(wrong("does not lead into the SSP"));
+        }
+        match self.bytes(path, relative) {
+            Err(Lost::Absent) => Err(missing()),
+            Err(Lost::Other(error)) => Err(error),
+            Ok(bytes) => Ok(bytes),
+        }
+    }
+
+    fn bytes(&mut self, path: &Path, name: &str) -> Result<Vec<u8>, Lost> {
+        match self {
+            Self::Folder(folder) => read_limited(File::open(folder.join(name)), path, name),
+            Self::Archive(archive) => match archive.by_name(name) {
+                Err(ZipError::FileNotFound) => Err(Lost::Absent),
+                Err(error) => Err(Lost::Other(SspError::NotAnArchive {
+                    path: path.to_owned(),
+                    reason: error.to_string(),
+                })),
+                Ok(entry) => read_limited(Ok(entry), path, name),
+            },
+        }
+    }
+}
+
+fn read_limited(file: io::Result<impl Read>, path: &Path, name: &str) -> Result<Vec<u8>, Lost> {
+    let failed = |source: io::Error| {
+        Lost::Other(SspError::Read {
+            path: path.join(name),
+            source,
+        })
+    };
+    let file = file.map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => Lost::Absent,
+        _ => failed(error),
+    })?;
+    let mut bytes = Vec::new();
+    // The limit counts real bytes, since the size that an archive declares may be a lie.
+    file.take(LIMIT + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > LIMIT {
+        return Err(Lost::Other(SspError::TooLarge {
+            path: path.to_owned(),
+            name: name.to_owned(),
+            limit: LIMIT,
+        }));
+    }
+    Ok(bytes)
+}

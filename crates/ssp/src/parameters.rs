@@ -1,0 +1,83 @@
+//! What a binding gives its element: values after prefix and mapping.
+
+use crate::SspError;
+use crate::model::{BaseUnit, Binding, Linear, Parameter, Unit, Value};
+
+/// A value on its way to an element.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Given {
+    pub(crate) name: String,
+    pub(crate) value: Value,
+    /// What its unit comes to, where that is said.
+    pub(crate) base: Option<BaseUnit>,
+    /// The binding, for messages.
+    pub(crate) by: String,
+}
+
+impl Given {
+    /// The same for another name, changed on its way.
+    pub(crate) fn to(&self, name: &str, transformation: Option<Linear>) -> Result<Self, SspError> {
+        let value = match (&self.value, transformation) {
+            (value, None | Some(Linear::NONE)) => value.clone(),
+            (Value::Real(value, unit), Some(linear)) => Value::Real(linear.apply(*value), unit.clone()),
+            (other, Some(_)) => {
+                return Err(SspError::structure(
+                    &self.by,
+                    format!(
+                        "'{}' is {} and cannot be transformed; only Real can",
+                        self.name,
+                        other.type_name()
+                    ),
+                ));
+            }
+        };
+        Ok(Self {
+            name: name.to_owned(),
+            value,
+            ..self.clone()
+        })
+    }
+}
+
+/// The values of a binding under the names that its element knows.
+///
+/// * `owner`: element of the binding, for messages.
+/// * `units`: of the structure; those of the set go before.
+pub(crate) fn given(owner: &str, binding: &Binding, units: &[Unit]) -> Result<Vec<Given>, SspError> {
+    let set = binding.source.as_ref().unwrap_or(&binding.values.name);
+    let by = format!("binding '{set}' of {owner}");
+    let base = |value: &Value| {
+        let Value::Real(_, Some(unit)) = value else { return None };
+        let mut known = binding.values.units.iter().chain(units);
+        known.find(|known| known.name == *unit).map(|unit| unit.base)
+    };
+    let plain: Vec<Given> = binding
+        .values
+        .parameters
+        .iter()
+        .map(|Parameter { name, value, .. }| Given {
+            name: format!("{}{name}", binding.prefix),
+            value: value.clone(),
+            base: base(value),
+            by: by.clone(),
+        })
+        .collect();
+    let Some(entries) = &binding.mapping else {
+        return Ok(plain);
+    };
+    let mapped = entries.iter().map(|entry| {
+        let source = plain.iter().find(|given| given.name == entry.source).ok_or_else(|| {
+            let known: Vec<&str> = plain.iter().map(|given| given.name.as_str()).collect();
+            SspError::structure(
+                &by,
+                format!(
+                    "its mapping names '{}', which is no value of it; there are {}",
+                    entry.source,
+                    known.join(", ")
+                ),
+            )
+        })?;
+        source.to(&entry.target, entry.transformation)
+    });
+    mapped.collect()
+}

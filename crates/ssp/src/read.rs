@@ -1,0 +1,366 @@
+//! Elements of `.ssd`, `.ssv` and `.ssm` files as values.
+
+use crate::SspError;
+use crate::model::{
+    BaseUnit, Binding, Component, Connection, Connector, DataType, Element, End, Experiment, FMU, Kind, Linear,
+    MappingEntry, Parameter, ParameterSet, System, SystemStructure, Unit, Value,
+};
+use crate::tree::{Node, parse};
+
+/// Annotations of the Open Simulation Platform.
+pub(crate) const OSP: &str = "com.opensimulationplatform";
+
+/// Gives the bytes of a file that a structure names: who names it, and its URI.
+pub(crate) type Files<'a> = dyn FnMut(&str, &str) -> Result<Vec<u8>, SspError> + 'a;
+
+/// Reads the structure, and the files that its bindings name.
+pub(crate) fn structure(file: &str, bytes: &[u8], files: &mut Files<'_>) -> Result<SystemStructure, SspError> {
+    let root = parse(file, bytes)?;
+    let mut reader = Reader { file, files };
+    if root.name != "ssd:SystemStructureDescription" {
+        return Err(reader.wrong(&root, "is not ssd:SystemStructureDescription of SSP 1.0"));
+    }
+    let version = reader.required(&root, "version")?;
+    if !matches!(version.split('.').next(), Some("1")) {
+        return Err(reader.wrong(&root, format!("version '{version}' is not read; give 1.0")));
+    }
+    let system = root
+        .child("ssd:System")
+        .ok_or_else(|| reader.wrong(&root, "has no ssd:System"))?;
+    Ok(SystemStructure {
+        name: reader.required(&root, "name")?.to_owned(),
+        description: root.attribute("description").map(str::to_owned),
+        generation_tool: root.attribute("generationTool").map(str::to_owned),
+        system: reader.system(system)?,
+        units: reader.units(root.list("ssd:Units"))?,
+        experiment: root
+            .child("ssd:DefaultExperiment")
+            .map(|node| reader.experiment(node))
+            .transpose()?,
+    })
+}
+
+struct Reader<'a, 'f> {
+    /// The file that is read, for messages.
+    file: &'a str,
+    files: &'a mut Files<'f>,
+}
+
+impl Reader<'_, '_> {
+    fn wrong(&self, node: &Node, problem: impl Into<String>) -> SspError {
+        SspError::Invalid {
+            file: self.file.to_owned(),
+            line: node.line,
+            element: node.label(),
+            problem: problem.into(),
+        }
+    }
+
+    fn required<'n>(&self, node: &'n Node, name: &str) -> Result<&'n str, SspError> {
+        node.attribute(name)
+            .ok_or_else(|| self.wrong(node, format!("has no attribute '{name}'")))
+    }
+
+    fn number<T: std::str::FromStr>(&self, node: &Node, name: &str) -> Result<Option<T>, SspError> {
+        let Some(text) = node.attribute(name) else {
+            return Ok(None);
+        };
+        let parsed = text.trim().parse().map(Some);
+        parsed.map_err(|_| self.wrong(node, format!("{name}='{text}' is not a number of its type")))
+    }
+
+    fn experiment(&self, node: &Node) -> Result<Experiment, SspError> {
+        let annotations = node.list("ssd:Annotations").iter();
+        let mut step_size = None;
+        for annotation in annotations.filter(|a| a.attribute("type") == Some(OSP)) {
+            // `osp:Algorithm` with `osp:FixedStepAlgorithm` in it.
+            for algorithm in annotation.list("Algorithm") {
+                step_size = self.number(algorithm, "baseStepSize")?.or(step_size);
+            }
+        }
+        Ok(Experiment {
+            start_time: self.number(node, "startTime")?,
+            stop_time: self.number(node, "stopTime")?,
+            step_size,
+        })
+    }
+
+    fn system(&mut self, node: &Node) -> Result<System, SspError> {
+        if let Some(dictionaries) = node.child("ssd:SignalDictionaries") {
+            return Err(self.wrong(
+                dictionaries,
+                "signal dictionaries are not read; connect the elements themselves",
+            ));
+        }
+        let mut elements: Vec<Element> = Vec::new();
+        for child in node.list("ssd:Elements") {
+            let element = match child.name.as_str() {
+                "ssd:Component" => Element::Component(self.component(child)?),
+                "ssd:System" => Element::System(self.system(child)?),
+                _ => return Err(self.wrong(child, "only ssd:Component and ssd:System are read as elements")),
+            };
+            if elements.iter().any(|other| other.name() == element.name()) {
+                return Err(self.wrong(child, "a second element of this name; give each a name of its own"));
+            }
+            elements.push(element);
+        }
+        let connections = node.list("ssd:Connections").iter();
+        Ok(System {
+            name: self.required(node, "name")?.to_owned(),
+            connectors: self.connectors(node)?,
+            elements,
+            connections: connections
+                .map(|child| self.connection(child))
+                .collect::<Result<_, _>>()?,
+            bindings: self.bindings(node)?,
+        })
+    }
+
+    fn component(&mut self, node: &Node) -> Result<Component, SspError> {
+        Ok(Component {
+            name: self.required(node, "name")?.to_owned(),
+            description: node.attribute("description").map(str::to_owned),
+            source: self.required(node, "source")?.to_owned(),
+            media_type: node.attribute("type").unwrap_or(FMU).to_owned(),
+            connectors: self.connectors(node)?,
+            bindings: self.bindings(node)?,
+        })
+    }
+
+    fn connectors(&self, node: &Node) -> Result<Vec<Connector>, SspError> {
+        let mut connectors: Vec<Connector> = Vec::new();
+        for child in node.list("ssd:Connectors") {
+            if child.name != "ssd:Connector" {
+                return Err(self.wrong(child, "is no ssd:Connector"));
+            }
+            let name = self.required(child, "name")?.to_owned();
+            let kind = self.required(child, "kind")?;
+            let known = Kind::ALL.iter().find(|(_, name)| *name == kind);
+            let (kind, _) = known.ok_or_else(|| {
+                let names = Kind::ALL.map(|(_, name)| name).join(", ");
+                self.wrong(child, format!("kind '{kind}' is not read; give {names}"))
+            })?;
+            if connectors.iter().any(|other| other.name == name) {
+                return Err(self.wrong(child, "a second connector of this name"));
+            }
+            connectors.push(Connector {
+                name,
+                kind: *kind,
+                data: self.data_type(child)?,
+            });
+        }
+        Ok(connectors)
+    }
+
+    fn data_type(&self, node: &Node) -> Result<Option<DataType>, SspError> {
+        let mut types = node.children.iter().filter_map(|child| {
+            let name = child.name.strip_prefix("ssc:")?;
+            Some(match name {
+                "Real" => Ok(DataType::Real {
+                    unit: child.attribute("unit").map(str::to_owned),
+                }),
+                "Integer" => Ok(DataType::Integer),
+                "Boolean" => Ok(DataType::Boolean),
+                "String" => Ok(DataType::String),
+                "Enumeration" => self
+                    .required(child, "name")
+                    .map(|name| DataType::Enumeration(name.to_owned())),
+                "Annotations" => return None,
+                other => Err(self.wrong(
+                    node,
+                    format!("type {other} is not read; give Real, Integer, Boolean, String or Enumeration"),
+                )),
+            })
+        });
+        types.next().transpose()
+    }
+
+    fn connection(&self, node: &Node) -> Result<Connection, SspError> {
+        if node.name != "ssd:Connection" {
+            return Err(self.wrong(node, "is no ssd:Connection"));
+        }
+        if matches!(node.attribute("suppressUnitConversion"), Some("true" | "1")) {
+            return Err(self.wrong(
+                node,
+                "suppressUnitConversion is not read; say the same unit at both ends",
+            ));
+        }
+        let end = |side: &str| -> Result<End, SspError> {
+            Ok(End {
+                element: node.attribute(&format!("{side}Element")).map(str::to_owned),
+                connector: self.required(node, &format!("{side}Connector"))?.to_owned(),
+            })
+        };
+        Ok(Connection {
+            start: end("start")?,
+            end: end("end")?,
+            transformation: self.transformation(node)?,
+        })
+    }
+
+    fn transformation(&self, node: &Node) -> Result<Option<Linear>, SspError> {
+        let mut found = None;
+        for child in &node.children {
+            match child.name.as_str() {
+                "ssc:LinearTransformation" => {
+                    found = Some(Linear {
+                        factor: self.number(child, "factor")?.unwrap_or(1.0),
+                        offset: self.number(child, "offset")?.unwrap_or(0.0),
+                    });
+                }
+                name if name.ends_with("MappingTransformation") => {
+                    return Err(self.wrong(node, format!("{name} is not read; only ssc:LinearTransformation is")));
+                }
+                _ => {}
+            }
+        }
+        Ok(found)
+    }
+
+    fn bindings(&mut self, node: &Node) -> Result<Vec<Binding>, SspError> {
+        let bindings = node.list("ssd:ParameterBindings").iter();
+        bindings.map(|child| self.binding(node, child)).collect()
+    }
+
+    fn binding(&mut self, owner: &Node, node: &Node) -> Result<Binding, SspError> {
+        let by = format!("the parameter binding of {}", owner.label());
+        let source = node.attribute("source");
+        // Relative to the component's file rather than to the structure's.
+        if source.is_some() && node.attribute("sourceBase") == Some("component") {
+            return Err(self.wrong(
+                node,
+                "sourceBase 'component' is not read; put the values beside the .ssd file",
+            ));
+        }
+        if let Some(other) = node
+            .attribute("type")
+            .filter(|t| *t != "application/x-ssp-parameter-set")
+        {
+            return Err(self.wrong(
+                node,
+                format!("values of type '{other}' are not read; give application/x-ssp-parameter-set"),
+            ));
+        }
+        let values = match (source, node.child("ssd:ParameterValues")) {
+            (Some(uri), None) => {
+                let bytes = (self.files)(&by, uri)?;
+                let inner = Reader {
+                    file: uri,
+                    files: &mut *self.files,
+                };
+                inner.parameter_set(&parse(uri, &bytes)?)?
+            }
+            (None, Some(inline)) => match inline.child("ssv:ParameterSet") {
+                Some(set) => self.parameter_set(set)?,
+                None => return Err(self.wrong(inline, "holds no ssv:ParameterSet")),
+            },
+            _ => return Err(self.wrong(node, "give either source or ssd:ParameterValues")),
+        };
+        let mapping = node.child("ssd:ParameterMapping").map(|mapping| {
+            if let Some(uri) = mapping.attribute("source") {
+                let bytes = (self.files)(&by, uri)?;
+                let inner = Reader {
+                    file: uri,
+                    files: &mut *self.files,
+                };
+                return inner.mapping(&parse(uri, &bytes)?);
+            }
+            let inline = mapping.child("ssm:ParameterMapping");
+            self.mapping(inline.ok_or_else(|| self.wrong(mapping, "holds no ssm:ParameterMapping"))?)
+        });
+        Ok(Binding {
+            source: source.map(str::to_owned),
+            prefix: node.attribute("prefix").unwrap_or_default().to_owned(),
+            values,
+            mapping: mapping.transpose()?,
+        })
+    }
+
+    fn mapping(&self, node: &Node) -> Result<Vec<MappingEntry>, SspError> {
+        if node.name != "ssm:ParameterMapping" {
+            return Err(self.wrong(node, "is not ssm:ParameterMapping of SSP 1.0"));
+        }
+        let entries = node.children.iter().filter(|child| child.name == "ssm:MappingEntry");
+        let entries = entries.map(|entry| {
+            Ok(MappingEntry {
+                source: self.required(entry, "source")?.to_owned(),
+                target: self.required(entry, "target")?.to_owned(),
+                transformation: self.transformation(entry)?,
+            })
+        });
+        entries.collect()
+    }
+
+    fn parameter_set(&self, node: &Node) -> Result<ParameterSet, SspError> {
+        if node.name != "ssv:ParameterSet" {
+            return Err(self.wrong(node, "is not ssv:ParameterSet of SSP 1.0"));
+        }
+        let mut parameters: Vec<Parameter> = Vec::new();
+        for child in node.list("ssv:Parameters") {
+            let parameter = self.parameter(child)?;
+            if parameters.iter().any(|other| other.name == parameter.name) {
+                return Err(self.wrong(child, "a second value of this name"));
+            }
+            parameters.push(parameter);
+        }
+        Ok(ParameterSet {
+            name: self.required(node, "name")?.to_owned(),
+            description: node.attribute("description").map(str::to_owned),
+            parameters,
+            units: self.units(node.list("ssv:Units"))?,
+        })
+    }
+
+    fn parameter(&self, node: &Node) -> Result<Parameter, SspError> {
+        let mut values = node.children.iter().filter(|child| child.name.starts_with("ssv:"));
+        let typed = values.next().ok_or_else(|| self.wrong(node, "has no value"))?;
+        let text = || self.required(typed, "value");
+        let none = || self.wrong(typed, "has no attribute 'value'");
+        let value = match typed.name.as_str() {
+            "ssv:Real" => Value::Real(
+                self.number(typed, "value")?.ok_or_else(none)?,
+                typed.attribute("unit").map(str::to_owned),
+            ),
+            "ssv:Integer" => Value::Integer(self.number(typed, "value")?.ok_or_else(none)?),
+            "ssv:Boolean" => Value::Boolean(match text()?.trim() {
+                "true" | "1" => true,
+                "false" | "0" => false,
+                other => return Err(self.wrong(node, format!("value='{other}' is not true or false"))),
+            }),
+            "ssv:String" => Value::String(text()?.to_owned()),
+            "ssv:Enumeration" => Value::Enumeration(text()?.to_owned()),
+            other => {
+                return Err(self.wrong(
+                    node,
+                    format!("type {other} is not read; give Real, Integer, Boolean, String or Enumeration"),
+                ));
+            }
+        };
+        Ok(Parameter {
+            name: self.required(node, "name")?.to_owned(),
+            description: node.attribute("description").map(str::to_owned),
+            value,
+        })
+    }
+
+    fn units(&self, nodes: &[Node]) -> Result<Vec<Unit>, SspError> {
+        let units = nodes.iter().map(|node| {
+            let base = node
+                .child("ssc:BaseUnit")
+                .ok_or_else(|| self.wrong(node, "has no ssc:BaseUnit"))?;
+            let mut exponents = [0; 8];
+            for (exponent, name) in exponents.iter_mut().zip(BaseUnit::NAMES) {
+                *exponent = self.number(base, name)?.unwrap_or(0);
+            }
+            Ok(Unit {
+                name: self.required(node, "name")?.to_owned(),
+                base: BaseUnit {
+                    exponents,
+                    factor: self.number(base, "factor")?.unwrap_or(1.0),
+                    offset: self.number(base, "offset")?.unwrap_or(0.0),
+                },
+            })
+        });
+        units.collect()
+    }
+}
