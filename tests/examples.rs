@@ -74,7 +74,10 @@ fn a_closed_loop_of_four_fmus_holds_its_point() {
     let [step, farthest, late, delta_v] = cells[..] else {
         panic!("{shown}");
     };
-    assert!(step == 1.0 && farthest < 1.0 && late <= farthest, "{shown}");
+    assert!(
+        (step - 1.0).abs() < 1e-9 && farthest < 1.0 && late <= farthest,
+        "{shown}"
+    );
     // A quintic from 14 m to 8 m in 1200 s takes 15/8 of the mean speed, up and down; vents and noise are more.
     assert!(delta_v > 2.0 * 1.875 * 5.5 / 1200.0 && delta_v < 1.0, "{shown}");
     let rows = read_csv(&folder.path().join("study/summary.csv"));

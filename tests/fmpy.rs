@@ -8,7 +8,8 @@
 mod common;
 
 use common::{fmu, harness_ok, read_csv, root, skipped, twin, virtual_environment};
-use std::collections::HashMap;
+use interface::ports::Role;
+use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
@@ -60,6 +61,45 @@ fn fmpy_finds_nothing_to_say_about_any_fmu() {
     if let Some(out) = script("validate", "validate.py", &fmus.each_ref().map(|path| text(path))) {
         let versions: Vec<_> = out.lines().map(|line| line.rsplit(' ').next().unwrap()).collect();
         assert_eq!(versions, ["2.0", "2.0", "3.0", "3.0"], "{out}");
+    }
+}
+
+/// What an FMU has inside as its reference, somebody else's program gets, too, to the bit.
+#[test]
+fn fmpy_repeats_the_reference_results() {
+    let fmus = [fmu("fmu-truth"), fmu("fmu-nav"), twin("fmu-truth"), twin("fmu-nav")];
+    if let Some(out) = script("reference", "reference.py", &fmus.each_ref().map(|path| text(path))) {
+        let expected = [
+            "fmu-truth: 601 rows, 10 columns, 0 other bits",
+            "fmu-nav: 601 rows, 10 columns, 0 other bits",
+            // Of the ten numbers six are two vectors.
+            "fmu-truth: 601 rows, 6 columns, 0 other bits",
+            "fmu-nav: 601 rows, 6 columns, 0 other bits",
+        ];
+        assert_eq!(out.lines().collect::<Vec<_>>(), expected, "{out}");
+    }
+}
+
+#[test]
+fn terminals_of_the_twins_fit_the_schema_and_each_other() {
+    let twins = [twin("fmu-truth"), twin("fmu-nav")];
+    if let Some(out) = script("terminals", "terminals.py", &twins.each_ref().map(|path| text(path))) {
+        let lines: BTreeSet<&str> = out.lines().collect();
+        let count = |role| interface::ports::of(role).count();
+        let sensors = count(Role::Sensor);
+        assert!(lines.contains("sensors plug output to input"), "{out}");
+        assert!(lines.contains("commands bus input to input"), "{out}");
+        let truth = format!("fmu-truth sensors {sensors}, commands 3, attitude 1, disturbances 2");
+        // All of the estimate but its covariance, which is local.
+        let nav = format!(
+            "fmu-nav sensors {sensors}, commands 3, estimate {}",
+            count(Role::Estimate) - 1
+        );
+        assert!(
+            lines.contains(truth.as_str()) && lines.contains(nav.as_str()),
+            "{truth}\n{nav}\n{out}"
+        );
+        assert_eq!(lines.len(), 4, "{out}");
     }
 }
 

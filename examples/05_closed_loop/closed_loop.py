@@ -54,7 +54,7 @@ def root_mean_square(values):
 def fly(fmus, filter_name, step, scheme, duration=DURATION, closed=True):
     """One flight, a row for each step.
 
-    place, reference: where the chaser is and should be, LVLH, m; off: between them. est, pred, taken: errors of position
+    place, reference: where the chaser is and should be, LVLH, m; off: between them. est, pred, taken: error of position
     as the filter says it and as guidance takes it, when the command that rests on it acts, m. dv: m/s. flow: kg/s.
     """
     names = ["fmu-truth", "fmu-nav", "Guidance", "LifeSupport"] if closed else ["fmu-truth", "fmu-nav"]

@@ -87,6 +87,10 @@ impl Model for NavModel {
         if h > LONGEST_STEP {
             return Err(format!("a step of {h} s is too long: at most {LONGEST_STEP} s are taken in one").into());
         }
+        let (sample, nav_init) = self.arrived();
+        if let Some(navigator) = &self.navigator {
+            navigator.check(&sample, &nav_init)?;
+        }
         Ok(())
     }
 

@@ -70,8 +70,11 @@ pub fn command(arguments: &[&str]) -> Command {
     if !matches!(first, Some("list" | "inspect" | "check")) {
         command.arg("--quiet");
     }
-    // A merge and a rerun take the FMUs that their study was made with, a report, a list, an inspection and a check none.
-    if !matches!(first, Some("merge" | "report" | "list" | "rerun" | "inspect" | "check")) {
+    // A merge and a rerun take the FMUs that their study was made with, a report, a list, an inspection and a check none; packing builds.
+    if !matches!(
+        first,
+        Some("merge" | "report" | "list" | "rerun" | "inspect" | "check" | "pack")
+    ) {
         command.arg("--no-build");
     }
     command

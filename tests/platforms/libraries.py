@@ -72,9 +72,9 @@ def pe(library, path):
     check_imports(library, re.findall(r"^\s+[0-9a-f]+\s+\d+\s+(\S+)\s*$", imports, re.M))
     if not re.search(r"Time/Date\s.*1970", text):
         fault(library, "knows when it was made")
-    minimum = "{}.{}".format(*(re.search(rf"{part}OSystemVersion\s+(\d+)", text)[1] for part in ("Maj", "Min")))
+    major, minor = (re.search(rf"{part}SubsystemVersion\s+(\d+)", text)[1] for part in ("Major", "Minor"))
     needed = sorted(set(re.findall(r"DLL Name: (\S+)", text)))
-    return f"subsystem of Windows {minimum}; needs {', '.join(needed)}"
+    return f"subsystem of Windows {major}.{minor}; needs {', '.join(needed)}"
 
 
 def mach_o(library, data):

@@ -344,6 +344,20 @@ pub enum HarnessError {
         /// How cargo ended.
         status: std::process::ExitStatus,
     },
+    /// A date that is none.
+    #[error("SOURCE_DATE_EPOCH is '{value}'; give whole seconds since 1970, or unset it")]
+    SourceDate {
+        /// What stands there.
+        value: String,
+    },
+    /// Cargo does not say what an FMU is made of.
+    #[error("cargo cannot list the crates that are linked into {name}: {told}")]
+    Linked {
+        /// Crate.
+        name: String,
+        /// What it said.
+        told: String,
+    },
     /// What is not here that building for other platforms takes.
     #[error("cannot build for every platform that was asked for; deploy/release.md tells how. {missing}")]
     Platforms {

@@ -239,6 +239,12 @@ impl Compiler {
         let name = found.or(target.names.first()).copied().unwrap_or_default();
         let mut arguments = vec!["--release".to_owned(), format!("--target={name}{}", target.glibc)];
         let mut environment = vec![("CARGO_ENCODED_RUSTFLAGS", self.flags(name).join("\x1f"))];
+        // The oldest system that Rust's standard library knows there; Zig would take a newer one.
+        match name {
+            "x86_64-apple-darwin" => environment.push(("MACOSX_DEPLOYMENT_TARGET", "10.12".to_owned())),
+            "aarch64-apple-darwin" => environment.push(("MACOSX_DEPLOYMENT_TARGET", "11.0".to_owned())),
+            _ => {}
+        }
         if found.is_none() {
             if !self.sources().join("library/Cargo.toml").is_file() {
                 let last = target.names.last().copied().unwrap_or_default();
@@ -290,7 +296,12 @@ impl Compiler {
             }
         }
         remap(&self.sources(), "rust");
-        flags.push("-Cstrip=symbols".to_owned());
+        if target.contains("apple") {
+            // By the linker: the compiler would call a tool that not every installation has.
+            flags.extend(["-Cstrip=none", "-Clink-arg=-Wl,-S", "-Clink-arg=-Wl,-x"].map(str::to_owned));
+        } else {
+            flags.push("-Cstrip=symbols".to_owned());
+        }
         if target.contains("windows") {
             flags.push("-Clink-arg=-Wl,--no-insert-timestamp".to_owned());
         }

@@ -206,7 +206,7 @@ impl Editing {
         }
     }
 
-    /// Sensors whose sample is most likely an outlier; each is counted.
+    /// Of each sensor, whether its sample is most likely an outlier; those are counted.
     ///
     /// * `step`: as the update with all of them has left it.
     /// * `nis`: of that update.
@@ -220,12 +220,12 @@ impl Editing {
         excess: impl Fn() -> Option<Matrix6<f64>>,
         layout: Layout,
         r: &RowVector,
-    ) -> Vec<Sensor> {
+    ) -> [bool; Sensor::COUNT] {
+        let mut found = [false; Sensor::COUNT];
         let Some(share) = self.share else {
-            return Vec::new();
+            return found;
         };
         let odds = math::ln((1.0 - share) / share);
-        let mut found = Vec::new();
         for sensor in Sensor::ALL {
             let (Some(rows), Some(z)) = (layout.of_sensor(sensor), sample[sensor].seen()) else {
                 continue;
@@ -260,7 +260,7 @@ impl Editing {
                     left: innovation(step, rows),
                 });
                 self.outliers += 1;
-                found.push(sensor);
+                found[sensor as usize] = true;
             } else if !suspect {
                 watched.in_a_row = 0;
             }
@@ -443,11 +443,12 @@ mod tests {
         let sample = ranged(time_s, z);
         let (step, r) = (step(v), RowVector::repeat(1.0));
         let found = editing.find(&sample, &step, 0.5 * v * v, || excess.copied(), layout, &r);
-        if found.is_empty() {
+        let found = found.contains(&true);
+        if !found {
             // It takes nine tenths of a range in.
             editing.remember(&sample, &step, &(Target::x() * (0.9 * v)), layout);
         }
-        !found.is_empty()
+        found
     }
 
     fn finds(editing: &mut Editing, v: f64, excess: Option<&Matrix6<f64>>) -> bool {

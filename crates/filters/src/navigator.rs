@@ -273,6 +273,10 @@ impl Navigator {
         if self.estimator.get().started() {
             return;
         }
+        let known_already = self.expected.is_some_and(|expected| expected == *nav_init);
+        if known_already && (self.last.target_axes, self.last.dcm_bc_n) == (sample.target_axes, sample.dcm_bc_n) {
+            return;
+        }
         let known = nav_init.iter().any(|v| *v != 0.0) && nav_init.iter().all(|v| v.is_finite());
         let mut start = self.estimator.clone();
         self.expected = (known && start.get_mut().start(nav_init, self.start_s).is_ok()).then_some(*nav_init);
@@ -333,26 +337,16 @@ impl Navigator {
         prediction::relative_n(self.frame, &self.estimate.x, self.last.target_axes.as_ref())
     }
 
-    /// Processes a sample. One that was here before is passed by: the ordinal of the last, or a lower one with an epoch that is not
-    /// beyond the last; a new ordinal with such an epoch is counted, too. A lower ordinal with an epoch beyond the last begins a new
-    /// sequence.
-    ///
-    /// * returns: whether the sample was a new one.
-    ///
-    /// * `nav_init`: the initial estimate at the start time, 18 states, SI; read with the first sample only.
+    /// Refuses a sample that cannot be used, before anything changes: one from too far ahead, one that makes no sense, or the first one
+    /// without an initial estimate. One that is no new sample is none of these.
     ///
     /// # Errors
-    /// When the sample makes no sense or the filter breaks down; the filter should then not be used further.
-    pub fn process(&mut self, sample: &Sample, nav_init: &State) -> Result<bool, FilterError> {
-        match self.source.arrival(sample) {
-            Arrival::Known => return Ok(false),
-            Arrival::Duplicate => {
-                self.source.pass_by(sample);
-                return Ok(false);
-            }
-            Arrival::New => (),
+    /// [`FilterError::TimeNotAdvancing`], [`FilterError::GapTooLong`], [`FilterError::NoInitialEstimate`],
+    /// [`FilterError::NoChaserPosition`], [`FilterError::NothingUntold`] or what the estimator finds in the sample.
+    pub fn check(&self, sample: &Sample, nav_init: &State) -> Result<(), FilterError> {
+        if self.source.arrival(sample) != Arrival::New {
+            return Ok(());
         }
-        let mut sample = Cow::Borrowed(sample);
         let (t_s, last_s) = (sample.time, self.estimate.time);
         let gap_s = t_s - last_s;
         if gap_s.is_nan() || gap_s <= 0.0 {
@@ -370,8 +364,44 @@ impl Navigator {
                 limit_s: LONGEST_GAP,
             });
         }
+        let estimator = self.estimator.get();
+        estimator.check(sample)?;
+        if self.untold.is_some() && sample.untold.is_none() {
+            return Err(FilterError::NothingUntold { t_s });
+        }
+        if estimator.started() {
+            return Ok(());
+        }
+        if nav_init.iter().all(|v| *v == 0.0) {
+            return Err(FilterError::NoInitialEstimate { t_s });
+        }
+        estimator.check_start(nav_init, t_s)
+    }
+
+    /// Processes a sample. One that was here before is passed by: the ordinal of the last, or a lower one with an epoch that is not
+    /// beyond the last; a new ordinal with such an epoch is counted, too. A lower ordinal with an epoch beyond the last begins a new
+    /// sequence.
+    ///
+    /// * returns: whether the sample was a new one.
+    ///
+    /// * `nav_init`: the initial estimate at the start time, 18 states, SI; read with the first sample only.
+    ///
+    /// # Errors
+    /// When the sample makes no sense or the filter breaks down; the filter should then not be used further.
+    pub fn process(&mut self, sample: &Sample, nav_init: &State) -> Result<bool, FilterError> {
+        self.check(sample, nav_init)?;
+        match self.source.arrival(sample) {
+            Arrival::Known => return Ok(false),
+            Arrival::Duplicate => {
+                self.source.pass_by(sample);
+                return Ok(false);
+            }
+            Arrival::New => (),
+        }
+        let mut sample = Cow::Borrowed(sample);
+        let (t_s, last_s) = (sample.time, self.estimate.time);
+        let gap_s = t_s - last_s;
         let estimator = self.estimator.get_mut();
-        estimator.check(&sample)?;
         if let Some(before) = &mut self.untold {
             let untold = sample.untold.ok_or(FilterError::NothingUntold { t_s })?;
             self.law.hear(&hindsight(&untold, before, gap_s, &self.units));
@@ -379,9 +409,6 @@ impl Navigator {
         }
         self.editing.remove_impossible(&mut sample, self.layout);
         if !estimator.started() {
-            if nav_init.iter().all(|v| *v == 0.0) {
-                return Err(FilterError::NoInitialEstimate { t_s });
-            }
             estimator.start(nav_init, t_s)?;
             self.law.look_ahead(&estimator.relative());
         }
@@ -403,10 +430,10 @@ impl Navigator {
                 self.law.excess(&since.fixed_view::<6, 6>(0, 0).into_owned())
             };
             let outliers = self.editing.find(&sample, &step, all.nis, excess, self.layout, &self.r);
-            if !outliers.is_empty() {
-                outliers
-                    .into_iter()
-                    .for_each(|sensor| sample.to_mut()[sensor] = Reading::Lost);
+            if outliers.contains(&true) {
+                for sensor in Sensor::ALL.into_iter().filter(|sensor| outliers[*sensor as usize]) {
+                    sample.to_mut()[sensor] = Reading::Lost;
+                }
                 estimator.undo();
                 step = Step::blank(gap_s / self.units.time, f);
                 seen = estimator.update(&sample, &mut step)?;

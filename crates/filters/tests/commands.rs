@@ -48,7 +48,7 @@ fn velocity(told: impl Fn(u32) -> f64, late: bool) -> f64 {
         let sample = Sample {
             accelerometer: Some(SpecificForce::Instant(Vector3::new(before, 0.0, 0.0).add_scalar(BIAS))),
             dcm_bc_n: Matrix3::identity(),
-            ..Sample::blank(epoch as i32, f64::from(epoch))
+            ..Sample::blank(i32::try_from(epoch).unwrap(), f64::from(epoch))
         };
         if epoch > 0 {
             nav.process(&sample, &start).unwrap();

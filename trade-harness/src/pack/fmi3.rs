@@ -43,6 +43,18 @@ pub(super) fn files(twin_of: &Files, description: Vec<u8>) -> Files {
     files
 }
 
+/// What a twin is drawn as: its terminals and its icon.
+pub(super) fn drawn(terminals: String, svg: Vec<u8>, png: Vec<u8>) -> Files {
+    let files = [
+        ("terminalsAndIcons.xml", terminals.into_bytes()),
+        ("icon.svg", svg),
+        ("icon.png", png),
+    ];
+    files
+        .map(|(file, contents)| (format!("terminalsAndIcons/{file}"), contents))
+        .into()
+}
+
 /// What FMI 3.0 calls a platform of FMI 2.0; a library for more than one processor has a place for each.
 fn platforms(of: &str) -> Vec<&str> {
     match of {

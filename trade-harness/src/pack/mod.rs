@@ -1,6 +1,11 @@
 //! Builds our two FMU crates and puts each into a `.fmu` file of FMI 2.0 and one of FMI 3.0.
 
+mod date;
+mod documentation;
 pub mod fmi3;
+mod linked;
+mod reference;
+mod terminals;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -8,18 +13,29 @@ use std::io::{BufRead, BufReader, Cursor, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use fmi2_import::{Causality, Fmu, ModelDescription, PLATFORM};
-use interface::annotation::Filters;
+use fmi2_import::{Fmu, PLATFORM};
 use interface::mission::{Document, EMBEDDED, PACKED, SHIPPED, guid_with};
 use study::{NAV, StudyError, TRUTH, World, filters_of};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
+
+pub(crate) use documentation::GROUPS;
+use reference::{Reference, Table};
 
 use crate::HarnessError;
 use crate::digest::of_bytes;
 use crate::output::write_whole;
 use crate::platforms::{Call, Platform, joined, recipes};
 use crate::structure;
+
+/// The description, first in an archive, so that whoever reads one as a stream has it at once.
+const DESCRIPTION: &str = "modelDescription.xml";
+
+/// What a tool of FMI 2.0 shows in place of an FMU.
+const ICON: &str = "model.png";
+
+/// Folder of the reference result in an FMU.
+const REFERENCE: &str = "documentation/reference";
 
 /// Our FMUs: crate and model name, and the identifier that library and C functions go by.
 pub const FMUS: [(&str, &str); 2] = [(TRUTH, "fmu_truth"), (NAV, "fmu_nav")];
@@ -49,8 +65,8 @@ pub fn fmu_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.fmu"))
 }
 
-/// Builds what has changed and packs both FMUs into a folder, with the system of them, and their FMI 3.0 twins into [`fmi3::folder`] of
-/// it; a file whose contents would be the same stays.
+/// Builds what has changed and packs both FMUs into a folder, with the system of them, their FMI 3.0 twins into [`fmi3::folder`] of it
+/// and reference results as the FMI cross-check rules name them into `cross-check`; a file whose contents would be the same stays.
 ///
 /// * `mission`: a mission file that both run unless told otherwise; it makes them FMUs with identifiers of their own.
 ///
@@ -76,6 +92,9 @@ pub fn pack_for(
 ) -> Result<Vec<Packed>, HarnessError> {
     let (world, resources) = resources(mission)?;
     let built = build_all(platforms, workspace, quiet)?;
+    let date = date::of(workspace)?;
+    let dated = |xml| date::dated(xml, date.as_deref());
+    let mut said = Table::default();
     let mut packed = Vec::new();
     for (name, identifier) in FMUS {
         let no_library = || HarnessError::NoLibrary {
@@ -83,27 +102,49 @@ pub fn pack_for(
         };
         let libraries = built.libraries.get(identifier).ok_or_else(no_library)?;
         let guid = built.guids.get(name).ok_or_else(no_library)?;
-        let description = workspace
-            .join("modelDescription")
-            .join(name)
-            .join("modelDescription.xml");
+        let committed = workspace.join("modelDescription").join(name);
+        let description = committed.join("modelDescription.xml");
         let inside = world.as_ref().zip(resources.get(&packed_mission()));
         let mut files = BTreeMap::from([(
-            "modelDescription.xml".to_owned(),
-            described(read(&description)?, "guid", guid, inside),
+            DESCRIPTION.to_owned(),
+            dated(described(read(&description)?, "guid", guid, inside)),
         )]);
         files.extend(libraries.clone());
         files.extend(resources.clone());
         let path = fmu_path(folder, name);
-        files.insert(
-            "documentation/index.html".to_owned(),
-            documentation(name, &path, &files)?,
+        let fmu = trial(name, &path, &files)?;
+        let reference = if runs_here(&files) {
+            Reference::of(&fmu, &mut said)?.files()
+        } else {
+            [Files::new(), Files::new()]
+        };
+        let picture = read(&committed.join("icon.svg"))?;
+        let page = read(&committed.join("documentation.html"))?;
+        let page = documentation::html(
+            fmu.description(),
+            &filters_of(fmu.description())?,
+            runs_here(&files),
+            &String::from_utf8_lossy(&page),
         );
-        files.extend(licences(workspace)?);
+        files.insert("documentation/index.html".to_owned(), page.into_bytes());
+        files.insert("documentation/picture.svg".to_owned(), picture.clone());
+        files.extend(linked::files(workspace, name, &platforms_of(&files), &built.sources)?);
+        let shared = files.clone();
+        files.insert(ICON.to_owned(), read(&committed.join("icon.png"))?);
+        files.extend(beside(&reference[0], REFERENCE));
         let twin = read(&fmi3::description(workspace, name))?;
-        let twin = fmi3::files(&files, described(twin, fmi3::IDENTIFIER, guid, inside));
+        let mut twin = fmi3::files(&shared, dated(described(twin, fmi3::IDENTIFIER, guid, inside)));
+        twin.extend(beside(&reference[1], REFERENCE));
+        twin.extend(fmi3::drawn(
+            terminals::xml(fmu.description()),
+            picture,
+            files[ICON].clone(),
+        ));
         packed.push(write(path, &files)?);
         packed.push(write(fmu_path(&fmi3::folder(folder), name), &twin)?);
+        for (file, contents) in &reference[0] {
+            keep(&folder.join("cross-check").join(name).join(file), contents)?;
+        }
     }
     let written = structure::write(folder, world.as_ref())?;
     packed.push(Packed {
@@ -115,12 +156,34 @@ pub fn pack_for(
 
 /// Puts files into an archive, unless it is there as it would be.
 fn write(path: PathBuf, files: &Files) -> Result<Packed, HarnessError> {
-    let archive = archive(&path, files)?;
-    let written = fs::read(&path).ok().as_ref() != Some(&archive);
-    if written {
-        write_whole(&path, &archive)?;
-    }
+    let written = keep(&path, &archive(&path, files)?)?;
     Ok(Packed { path, written })
+}
+
+/// Writes a file, unless it is there as it would be; returns whether it had to.
+fn keep(path: &Path, contents: &[u8]) -> Result<bool, HarnessError> {
+    let stands = fs::read(path).is_ok_and(|there| there == contents);
+    if !stands {
+        write_whole(path, contents)?;
+    }
+    Ok(!stands)
+}
+
+/// Files as they stand in a folder of the archive.
+fn beside(files: &Files, folder: &str) -> Files {
+    let placed = |(file, contents): (&String, &Vec<u8>)| (format!("{folder}/{file}"), contents.clone());
+    files.iter().map(placed).collect()
+}
+
+/// Whether there is a library for this platform.
+fn runs_here(files: &Files) -> bool {
+    platforms_of(files).contains(PLATFORM)
+}
+
+/// Platforms that there are libraries for.
+fn platforms_of(files: &Files) -> BTreeSet<String> {
+    let platform = |file: &String| Some(file.strip_prefix("binaries/")?.split_once('/')?.0.to_owned());
+    files.keys().filter_map(platform).collect()
 }
 
 /// Contents by name in the archive.
@@ -191,6 +254,8 @@ struct Built<Library> {
     libraries: BTreeMap<String, Library>,
     /// GUID of each crate's build, without braces.
     guids: BTreeMap<&'static str, String>,
+    /// Where the packages of others are.
+    sources: linked::Sources,
 }
 
 /// The libraries of every platform by their names in the archive.
@@ -198,6 +263,7 @@ fn build_all(platforms: &BTreeSet<Platform>, workspace: &Path, quiet: bool) -> R
     let mut all = Built {
         libraries: BTreeMap::<String, Files>::new(),
         guids: BTreeMap::new(),
+        sources: linked::Sources::new(),
     };
     for recipe in recipes(platforms)? {
         let mut parts: BTreeMap<String, Vec<Vec<u8>>> = BTreeMap::new();
@@ -207,6 +273,7 @@ fn build_all(platforms: &BTreeSet<Platform>, workspace: &Path, quiet: bool) -> R
                 parts.entry(identifier).or_default().push(read(&library)?);
             }
             all.guids.extend(built.guids);
+            all.sources.extend(built.sources);
         }
         for (identifier, parts) in parts {
             let name = format!("binaries/{}/{identifier}.{}", recipe.folder, recipe.suffix);
@@ -253,11 +320,13 @@ fn build(workspace: &Path, quiet: bool, call: &Call, suffix: &str) -> Result<Bui
     let mut built = Built {
         libraries: BTreeMap::new(),
         guids: BTreeMap::new(),
+        sources: linked::Sources::new(),
     };
     if let Some(messages) = child.stdout.take() {
         for line in BufReader::new(messages).lines().map_while(Result::ok) {
             built.libraries.extend(library_of(&line, suffix));
             built.guids.extend(guid_of(&line));
+            built.sources.extend(linked::source_of(&line));
         }
     }
     let status = child.wait().map_err(no_cargo)?;
@@ -299,29 +368,7 @@ fn guid_of(line: &str) -> Option<(&'static str, String)> {
     Some((name, guid[1].as_str()?.to_owned()))
 }
 
-/// The licence files of the workspace, with the entry page the standard asks for.
-fn licences(workspace: &Path) -> Result<BTreeMap<String, Vec<u8>>, HarnessError> {
-    let mut found = BTreeMap::new();
-    let entries = fs::read_dir(workspace).map_err(|source| HarnessError::Read {
-        path: workspace.to_owned(),
-        source,
-    })?;
-    for entry in entries.flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        if name.starts_with("LICENSE") && entry.path().is_file() {
-            found.insert(format!("documentation/licenses/{name}"), read(&entry.path())?);
-        }
-    }
-    let files: Vec<&str> = found.keys().filter_map(|path| path.rsplit('/').next()).collect();
-    let mut entry = format!("Licence: {}\n", env!("CARGO_PKG_LICENSE"));
-    if !files.is_empty() {
-        entry.push_str(&format!("Full texts: {}\n", files.join(", ")));
-    }
-    found.insert("documentation/licenses/license.txt".to_owned(), entry.into_bytes());
-    Ok(found)
-}
-
-/// A zip archive that depends on names and contents alone.
+/// A zip archive that depends on names and contents alone, the description first.
 fn archive(path: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>, HarnessError> {
     let failed = |source| HarnessError::Zip {
         path: path.to_owned(),
@@ -332,7 +379,11 @@ fn archive(path: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>, Ha
         .last_modified_time(zip::DateTime::default())
         .unix_permissions(0o644);
     let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
-    for (name, contents) in files {
+    let first = files.get_key_value(DESCRIPTION);
+    for (name, contents) in first
+        .into_iter()
+        .chain(files.iter().filter(|(name, _)| *name != DESCRIPTION))
+    {
         writer.start_file(name, options).map_err(failed)?;
         writer.write_all(contents).map_err(|e| failed(e.into()))?;
     }
@@ -346,9 +397,9 @@ fn read(path: &Path) -> Result<Vec<u8>, HarnessError> {
     })
 }
 
-/// Opens the FMU as far as it is, and starts it where it has a library for this platform, so that a description that does not belong to the library is found here,
-/// and describes it.
-fn documentation(name: &'static str, path: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>, HarnessError> {
+/// Opens the FMU as far as it is, and starts it where it has a library for this platform, so that a description that does not belong
+/// to the library is found here.
+fn trial(name: &'static str, path: &Path, files: &Files) -> Result<Fmu, HarnessError> {
     let unwritable = |source| HarnessError::Write {
         path: path.to_owned(),
         source,
@@ -356,93 +407,14 @@ fn documentation(name: &'static str, path: &Path, files: &BTreeMap<String, Vec<u
     let mut trial = tempfile::Builder::new().suffix(".fmu").tempfile().map_err(unwritable)?;
     trial.write_all(&archive(path, files)?).map_err(unwritable)?;
     let fmu = Fmu::open(trial.path())?;
-    if files
-        .keys()
-        .any(|file| file.starts_with(&format!("binaries/{PLATFORM}/")))
-    {
+    if runs_here(files) {
         fmu.instantiate("pack", false)
             .map_err(|source| HarnessError::DoesNotStart {
                 name,
                 source: Box::new(source),
             })?;
     }
-    Ok(html(fmu.description(), &filters_of(fmu.description())?).into_bytes())
-}
-
-/// Variables of an FMU by kind, with headings.
-pub(crate) const GROUPS: [(&str, Causality); 5] = [
-    ("Parameters", Causality::Parameter),
-    ("Calculated parameters", Causality::CalculatedParameter),
-    ("Inputs", Causality::Input),
-    ("Outputs", Causality::Output),
-    ("Local variables", Causality::Local),
-];
-
-const STYLE: &str = "body{font:15px/1.5 sans-serif;margin:2em auto;max-width:70em;padding:0 1em}\
-table{border-collapse:collapse}td,th{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left;vertical-align:top}\
-code{white-space:nowrap}";
-
-/// The page `documentation/index.html`: what the FMU is, its presets and its variables.
-fn html(d: &ModelDescription, filters: &Filters) -> String {
-    let name = escape(&d.model_name);
-    let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title><style>{STYLE}</style></head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n<p>FMI 2.0 co-simulation, version {}, licence {}.</p>\n",
-        escape(d.description.as_deref().unwrap_or_default()),
-        escape(d.version.as_deref().unwrap_or("unknown")),
-        escape(d.license.as_deref().unwrap_or("not stated")),
-    );
-    if !filters.presets.is_empty() {
-        page.push_str("<h2>Presets</h2>\n<table>\n<tr><th>preset</th><th>sets</th><th>meaning</th></tr>\n");
-        for p in &filters.presets {
-            let sets: Vec<String> = p
-                .sets
-                .iter()
-                .map(|s| format!("<code>{}={}</code>", escape(&s.variable), escape(&s.value)))
-                .collect();
-            let label = format!("{}@{}", p.filter, p.name);
-            let cells = [
-                format!("<code>{}</code>", escape(&label)),
-                sets.join(" "),
-                escape(&p.about),
-            ];
-            push_row(&mut page, &cells);
-        }
-        page.push_str("</table>\n");
-    }
-    for (title, causality) in GROUPS {
-        let of_kind = || d.variables.iter().filter(|v| v.causality == causality);
-        if of_kind().next().is_none() {
-            continue;
-        }
-        page.push_str(&format!("<h2>{title}</h2>\n<table>\n"));
-        page.push_str("<tr><th>name</th><th>type</th><th>unit</th><th>start</th><th>meaning</th></tr>\n");
-        for v in of_kind() {
-            let start = v.start().map(|s| v.format_value(&s)).unwrap_or_default();
-            let cells = [
-                format!("<code>{}</code>", escape(&v.name)),
-                v.base_type().to_string(),
-                escape(v.unit().unwrap_or_default()),
-                escape(&start),
-                escape(v.description.as_deref().unwrap_or_default()),
-            ];
-            push_row(&mut page, &cells);
-        }
-        page.push_str("</table>\n");
-    }
-    page.push_str("</body>\n</html>\n");
-    page
-}
-
-fn push_row(page: &mut String, cells: &[String]) {
-    let cells: Vec<String> = cells.iter().map(|c| format!("<td>{c}</td>")).collect();
-    page.push_str(&format!("<tr>{}</tr>\n", cells.concat()));
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
+    Ok(fmu)
 }
 
 #[cfg(test)]
@@ -462,7 +434,7 @@ mod tests {
         assert_eq!(bytes, archive(path, &files).unwrap());
         let mut zip = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
         let names: Vec<String> = zip.file_names().map(|n| n.unwrap().into_owned()).collect();
-        assert_eq!(names, ["binaries/linux64/m.so", "modelDescription.xml"]);
+        assert_eq!(names, ["modelDescription.xml", "binaries/linux64/m.so"]);
         let mut text = String::new();
         zip.by_name("modelDescription.xml")
             .unwrap()
@@ -515,19 +487,6 @@ mod tests {
         );
         assert!(library_of(r#"{"reason":"build-finished","success":true}"#, LIBRARY_SUFFIX).is_none());
         assert!(library_of("no json", LIBRARY_SUFFIX).is_none());
-    }
-
-    #[test]
-    fn licences_name_their_files() {
-        let dir = tempfile::tempdir().unwrap();
-        fs::write(dir.path().join("LICENSE-MIT"), "as is").unwrap();
-        let found = licences(dir.path()).unwrap();
-        assert_eq!(found["documentation/licenses/LICENSE-MIT"], b"as is");
-        let entry = String::from_utf8(found["documentation/licenses/license.txt"].clone()).unwrap();
-        assert!(
-            entry.contains(env!("CARGO_PKG_LICENSE")) && entry.contains("LICENSE-MIT"),
-            "{entry}"
-        );
     }
 
     #[test]

@@ -34,6 +34,11 @@ pub(crate) trait Estimator {
     /// Refuses a sample that makes no sense, before anything changes.
     fn check(&self, sample: &Sample) -> Result<(), FilterError>;
 
+    /// Refuses an initial estimate, SI, that cannot be taken.
+    fn check_start(&self, _nav_init: &State, _t_s: f64) -> Result<(), FilterError> {
+        Ok(())
+    }
+
     /// Takes the initial estimate, SI, when the first sample arrives at `t_s`.
     fn start(&mut self, nav_init: &State, t_s: f64) -> Result<(), FilterError>;
 

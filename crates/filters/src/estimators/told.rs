@@ -32,6 +32,43 @@ pub(super) struct Place {
     pub v_n: Vector3<f64>,
 }
 
+/// Steps of a gap, s; without cuts they ask for no memory.
+pub(super) enum Steps {
+    /// Equal ones.
+    Equal {
+        /// Length of each.
+        step: f64,
+        /// How many are left.
+        left: u32,
+    },
+    /// From edge to edge.
+    Cut {
+        /// Ends of the steps, s after the begin of the gap.
+        edges: std::vec::IntoIter<f64>,
+        /// The last of them that was reached.
+        last: f64,
+    },
+}
+
+impl Iterator for Steps {
+    type Item = f64;
+
+    fn next(&mut self) -> Option<f64> {
+        match self {
+            Self::Equal { step, left } => {
+                *left = left.checked_sub(1)?;
+                Some(*step)
+            }
+            Self::Cut { edges, last } => {
+                let edge = edges.next()?;
+                let step = edge - *last;
+                *last = edge;
+                Some(step)
+            }
+        }
+    }
+}
+
 impl Manoeuvres {
     /// Those of a mission that its accelerometer does not tell of.
     ///
@@ -83,15 +120,14 @@ impl Manoeuvres {
     ///
     /// * `from`: begin of the gap, s after the start of the run.
     /// * `cuts`: other times at which it is cut, s after its begin.
-    pub(super) fn steps(&self, from: f64, length: f64, parts: u32, cuts: impl Iterator<Item = f64>) -> Vec<f64> {
+    pub(super) fn steps(&self, from: f64, length: f64, parts: u32, cuts: impl Iterator<Item = f64>) -> Steps {
         let told = self.all.iter().flat_map(|m| [m.from - from, m.to - from]);
         let mut cuts = told.chain(cuts).filter(|cut| *cut > 0.0 && *cut < length).peekable();
+        let step = length / f64::from(parts);
         if cuts.peek().is_none() {
-            return vec![length / f64::from(parts); parts as usize];
+            return Steps::Equal { step, left: parts };
         }
-        let mut edges: Vec<f64> = (1..=parts)
-            .map(|k| f64::from(k) * (length / f64::from(parts)))
-            .collect();
+        let mut edges: Vec<f64> = (1..=parts).map(|k| f64::from(k) * step).collect();
         for edge in cuts {
             // A step that is nearly nothing would only cost.
             if edges.iter().all(|e| (e - edge).abs() > 1e-9 * length) {
@@ -99,15 +135,10 @@ impl Manoeuvres {
             }
         }
         edges.sort_by(f64::total_cmp);
-        let mut last = 0.0;
-        edges
-            .into_iter()
-            .map(|edge| {
-                let step = edge - last;
-                last = edge;
-                step
-            })
-            .collect()
+        Steps::Cut {
+            edges: edges.into_iter(),
+            last: 0.0,
+        }
     }
 
     /// Acceleration of target and chaser, in axes N of an inertial frame, or relative ones in LVLH axes (both in the target's).

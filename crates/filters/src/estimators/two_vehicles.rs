@@ -367,10 +367,15 @@ impl Estimator for InertialState {
         Ok(())
     }
 
-    fn start(&mut self, nav_init: &State, t_s: f64) -> Result<(), FilterError> {
+    fn check_start(&self, nav_init: &State, t_s: f64) -> Result<(), FilterError> {
         if nav_init.fixed_rows::<3>(idx::R_C.start).iter().all(|v| *v == 0.0) {
             return Err(FilterError::NoChaserPosition { t_s });
         }
+        Ok(())
+    }
+
+    fn start(&mut self, nav_init: &State, t_s: f64) -> Result<(), FilterError> {
+        self.check_start(nav_init, t_s)?;
         let mut core = Gaussian {
             x: State::from_fn(|i, _| nav_init[i] / self.units.of_state(i)),
             p: initial_covariance(&self.initial_p),
