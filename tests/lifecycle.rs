@@ -349,7 +349,8 @@ fn coupled(scenario: &str, filter: &str, experiment: &Experiment, steps: &[f64])
     let wires: Vec<String> = names(&NAV, &[Causality::Input]);
     let shown: Vec<String> = names(&NAV, &[Causality::Output, Causality::Local])
         .into_iter()
-        .filter(|name| name != "est.time")
+        // What holds at the end of a step depends on where that is.
+        .filter(|name| name != "est.time" && !name.starts_with("pred."))
         .collect();
     let (mut truth, mut nav) = (
         TRUTH.instantiate("truth", false).unwrap(),
@@ -669,24 +670,33 @@ fn a_model_that_cannot_go_on_says_so_and_a_reset_helps() {
     }
     let error = instance.do_step(0.0, H).unwrap_err().to_string();
     assert!(error.contains("nav_init.x") && error.contains("t = 2 s"), "{error}");
-    // Readable for a diagnosis, but not to be stepped.
+    // The step was refused and has changed nothing, so it can be taken once that is mended.
     assert_eq!(get(&mut instance, "est.count"), Value::Integer(0));
-    let error = instance.do_step(0.0, H).unwrap_err().to_string();
-    assert!(error.contains("'failed'"), "{error}");
-    instance.reset().unwrap();
-    initialise(&mut instance, &case.parameters, &FROM_ZERO);
     assert_eq!(case.run(&mut instance, 0..8), expected);
 
     let case = &CASES[0];
+    let expected = case.run(&mut case.started(), 0..8);
     let mut instance = case.started();
     case.run(&mut instance, 0..4);
     let state = instance.get_state().unwrap();
-    set(&mut instance, "a_dist_t_n[1]", &Value::Real(1e300)).unwrap();
-    let error = instance.do_step(time(4), 1e3).unwrap_err().to_string();
-    assert!(error.contains("no longer finite"), "{error}");
-    // An earlier state helps as well.
+    let fail = |instance: &mut Instance| {
+        set(instance, "a_dist_t_n[1]", &Value::Real(1e300)).unwrap();
+        let error = instance.do_step(time(4), 1e3).unwrap_err().to_string();
+        assert!(error.contains("no longer finite"), "{error}");
+        // Readable for a diagnosis, but not to be stepped.
+        assert!(matches!(get(instance, "sample_count"), Value::Integer(_)));
+        let error = instance.do_step(time(4), H).unwrap_err().to_string();
+        assert!(error.contains("'failed'"), "{error}");
+    };
+    fail(&mut instance);
+    // An earlier state helps as well as a reset.
     instance.set_state(&state).unwrap();
-    assert_eq!(case.run(&mut instance, 4..8), case.run(&mut case.started(), 0..8)[4..]);
+    assert_eq!(case.run(&mut instance, 4..8), expected[4..]);
+    instance.set_state(&state).unwrap();
+    fail(&mut instance);
+    instance.reset().unwrap();
+    initialise(&mut instance, &case.parameters, &FROM_ZERO);
+    assert_eq!(case.run(&mut instance, 0..8), expected);
 }
 
 #[test]

@@ -281,7 +281,9 @@ fn make_python_fmu() -> Option<PathBuf> {
 }
 
 /// Packs a source by PythonFMU; false, and said, where there is no Python.
-fn pack_python(test: &str, source: &str, folder: &Path) -> bool {
+///
+/// * `beside`: files that it needs.
+fn pack_python(test: &str, source: &str, beside: &[&str], folder: &Path) -> bool {
     let Some(build) = python_fmu() else {
         skipped(test, "python3-venv");
         return false;
@@ -289,6 +291,7 @@ fn pack_python(test: &str, source: &str, folder: &Path) -> bool {
     let output = Command::new(build)
         .args(["build", "--file", source, "--dest"])
         .arg(folder)
+        .args(beside)
         .current_dir(root())
         .output()
         .unwrap();
@@ -310,7 +313,8 @@ fn has_library(test: &str) -> bool {
 fn guidance_on_a_filters_estimates_gives_each_filter_its_own_world() {
     let folder = tempfile::tempdir().unwrap();
     let source = "examples/05_closed_loop/guidance.py";
-    if !pack_python("closed loop", source, folder.path()) || !has_library("closed loop") {
+    let beside = ["examples/05_closed_loop/pulse.py"];
+    if !pack_python("closed loop", source, &beside, folder.path()) || !has_library("closed loop") {
         return;
     }
     let guide = format!("guide={}", text(&folder.path().join("Guidance.fmu")));
@@ -352,7 +356,7 @@ fn guidance_on_a_filters_estimates_gives_each_filter_its_own_world() {
 fn a_filter_in_python_does_what_the_one_in_c_does() {
     let folder = tempfile::tempdir().unwrap();
     let source = "examples/04_own_filter_in_python/direct_inversion.py";
-    if !has_tools("python") || !pack_python("python", source, folder.path()) {
+    if !has_tools("python") || !pack_python("python", source, &[], folder.path()) {
         return;
     }
     let toy = folder.path().join("Toy.fmu");

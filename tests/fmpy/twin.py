@@ -29,7 +29,8 @@ def again(fmu):
     """Frees the instance and makes another one in the same library, which hears itself."""
     fmu.heard = Heard()
     fmu.fmu.fmi3FreeInstance(fmu.fmu.component)
-    fmu.fmu.instantiate(logMessage=fmu.heard)
+    fmu.fmu.instantiate(loggingOn=True, logMessage=fmu.heard)
+    fmu.fmu.setDebugLogging(True, ["logStatusError", "logStatusFatal"])
 
 
 def steps(fmu, first, last):
@@ -154,7 +155,7 @@ def instantiations(path, folder):
         heard = Heard()
         fmu = kind(guid=token, unzipDirectory=folder, modelIdentifier=identifier, instanceName="x")
         try:
-            fmu.instantiate(logMessage=heard, **asked)
+            fmu.instantiate(loggingOn=True, logMessage=heard, **asked)
         except Exception:  # FMPy's own class for a null answer
             assert len(heard.texts) == 1 and part in heard.texts[0], heard.texts
         else:
