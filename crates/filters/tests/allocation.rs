@@ -1,4 +1,4 @@
-//! A step of a filter that has settled asks for no memory, but for that in which clarabel solves a programme.
+//! A step of a filter that has settled asks for no memory, but for that in which clarabel solves a programme, and there clarabel alone.
 #![allow(unsafe_code, reason = "an allocator that counts")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
@@ -8,20 +8,40 @@ mod formation;
 use common::OwnWorld;
 use filters::laws::{FILTERS, FilterEntry};
 use filters::tunable::{Kind, Value};
-use filters::{Navigator, Settings};
+use filters::{Command, Navigator, Settings};
 use formation::{Formation, World};
+use nalgebra::Vector3;
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::backtrace::Backtrace;
 use std::cell::Cell;
 
 struct Counting;
 
 thread_local! {
     static ASKED: Cell<u64> = const { Cell::new(0) };
+    static TRACED: Cell<Option<Traced>> = const { Cell::new(None) };
+}
+
+/// Who has asked, by what a backtrace names.
+#[derive(Clone, Copy, Debug, Default)]
+struct Traced {
+    /// Requests that clarabel has made.
+    clarabel: u32,
+    /// Those that the filters have made without it.
+    own: u32,
 }
 
 fn count() {
     // While a thread ends there is no place to count in.
     let _ = ASKED.try_with(|asked| asked.set(asked.get() + 1));
+    // Taken out meanwhile: a backtrace asks for memory, too.
+    if let Ok(Some(mut traced)) = TRACED.try_with(Cell::take) {
+        let names = Backtrace::force_capture().to_string();
+        let by_clarabel = names.contains("clarabel::");
+        traced.clarabel += u32::from(by_clarabel);
+        traced.own += u32::from(!by_clarabel && names.contains("filters::"));
+        TRACED.set(Some(traced));
+    }
 }
 
 // SAFETY: every call goes on to the system's allocator as it came.
@@ -50,11 +70,13 @@ static ALLOCATOR: Counting = Counting;
 /// Samples after which a filter has settled, and those that are looked at.
 const SETTLING: u32 = 600;
 const STEPS: u32 = 900;
+/// Of these, the last in which it is asked who asks: that takes time.
+const TRACES: u32 = 100;
 
 /// What is in no preset and has code of its own.
 const FURTHER: [(&str, &str, &[(&str, &str)]); 2] = [
     ("change_point", "schedule", &[("schedule", "true")]),
-    // Decides every few samples.
+    // Decides more often.
     (
         "change_point",
         "rash",
@@ -78,7 +100,7 @@ fn value(filter: &FilterEntry, tunable: &str, text: &str) -> Value {
     }
 }
 
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct Counted {
     /// Steps that ask for memory.
     asking: u32,
@@ -86,6 +108,8 @@ struct Counted {
     unasked: u32,
     /// How often the filter has changed its mind.
     updates: i32,
+    /// Of the last steps.
+    traced: Traced,
 }
 
 fn counted(scenario: &str, settings: &Settings, solves: bool) -> Counted {
@@ -100,10 +124,22 @@ fn counted(scenario: &str, settings: &Settings, solves: bool) -> Counted {
     let mut counted = Counted::default();
     // A programme ends as an update or unsolved.
     let programmes = |nav: &Navigator| nav.updates() + nav.unsolved();
+    let mut begun = 0.0;
     for k in 0..SETTLING + STEPS {
         let sample = world.step();
         let (asked, updates, solved) = (ASKED.get(), nav.updates(), programmes(&nav));
+        TRACED.set((solves && k >= SETTLING + STEPS - TRACES).then_some(counted.traced));
+        // A command that changes at every sample, too small to matter, and a prediction beyond it.
+        let command = Command {
+            a_cmd_c_n: Vector3::x() * (1e-12 * f64::from(k % 3)),
+            ..Command::default()
+        };
+        nav.step(begun, sample.time - begun, &command);
         nav.process(&sample, &start).unwrap();
+        nav.step(sample.time, 0.5, &command);
+        nav.predict();
+        begun = sample.time;
+        counted.traced = TRACED.take().unwrap_or_default();
         if k >= SETTLING {
             let asks = ASKED.get() > asked;
             counted.asking += u32::from(asks);
@@ -132,19 +168,18 @@ fn a_settled_filter_asks_for_no_memory_but_for_clarabel() {
                     *settings.tunable_mut(filter.name, tunable).unwrap() = value(filter, tunable, text);
                 }
                 let solves = sets.contains(&("law", "regression"));
-                let Counted {
-                    asking,
-                    unasked,
-                    updates,
-                } = counted(scenario, &settings, solves);
+                let found = counted(scenario, &settings, solves);
                 println!(
-                    "{scenario:12} {:14} {tuning:11} {asking:4} of {STEPS} steps ask for memory, at {updates:3} updates",
-                    filter.name
+                    "{scenario:12} {:14} {tuning:11} {:4} of {STEPS} steps ask for memory, at {:3} updates",
+                    filter.name, found.asking, found.updates
                 );
-                // What only updates could ask for is told by updates alone.
-                let silent = (solves || filter.name == "milton" || tuning == "rash") && updates == 0;
-                if unasked > 0 || silent {
-                    failed.push((scenario, filter.name, tuning, asking, unasked, updates));
+                if solves && found.traced.clarabel == 0 {
+                    println!("SKIPPED: whether clarabel alone asks, since backtraces name nothing here");
+                }
+                // What is asked for at updates alone is not told without any.
+                let silent = (solves || filter.name == "milton" || tuning == "rash") && found.updates == 0;
+                if found.unasked > 0 || found.traced.own > 0 || silent {
+                    failed.push((scenario, filter.name, tuning, found));
                 }
             }
         }
