@@ -296,7 +296,7 @@ impl Navigator {
     ///
     /// A prediction is made anew each time from the last sample, so it depends on nothing but that and the commands.
     pub fn predict(&self) -> Prediction {
-        let ahead = self.predicted().unwrap_or_else(|| Reported {
+        let ahead = self.predicted().unwrap_or(Reported {
             x: self.estimate.x,
             p_target: self.estimate.p_target,
             sigma: self.estimate.sigma,

@@ -1,6 +1,7 @@
 //! A step of a filter that has settled asks for no memory, but for that in which clarabel solves a programme, and there clarabel alone.
 #![allow(unsafe_code, reason = "an allocator that counts")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
+#![allow(clippy::print_stdout, reason = "what is counted is a table")]
 
 mod common;
 mod formation;
@@ -73,8 +74,11 @@ const STEPS: u32 = 900;
 /// Of these, the last in which it is asked who asks: that takes time.
 const TRACES: u32 = 100;
 
+/// Tunables and what they are set to.
+type Sets = &'static [(&'static str, &'static str)];
+
 /// What is in no preset and has code of its own.
-const FURTHER: [(&str, &str, &[(&str, &str)]); 2] = [
+const FURTHER: [(&str, &str, Sets); 2] = [
     ("change_point", "schedule", &[("schedule", "true")]),
     // Decides more often.
     (
@@ -85,7 +89,7 @@ const FURTHER: [(&str, &str, &[(&str, &str)]); 2] = [
 ];
 
 /// Every preset of a filter and what is in none, each with what it sets.
-fn tunings(filter: &FilterEntry) -> impl Iterator<Item = (&'static str, &'static [(&'static str, &'static str)])> {
+fn tunings(filter: &FilterEntry) -> impl Iterator<Item = (&'static str, Sets)> {
     let presets = filter.presets.iter().map(|preset| (preset.name, preset.sets));
     let further = FURTHER.iter().filter(|(of, ..)| *of == filter.name);
     presets.chain(further.map(|(_, name, sets)| (*name, *sets)))

@@ -25,6 +25,7 @@ use serde::{Deserialize, Serialize};
 
 /// The dynamics there are in this frame.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[allow(clippy::large_enum_variant, reason = "a filter has one, in a box with all else")]
 enum Relative {
     Circular(Circular),
     J2(J2),
