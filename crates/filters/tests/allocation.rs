@@ -133,14 +133,17 @@ fn counted(scenario: &str, settings: &Settings, solves: bool) -> Counted {
         let sample = world.step();
         let (asked, updates, solved) = (ASKED.get(), nav.updates(), programmes(&nav));
         TRACED.set((solves && k >= SETTLING + STEPS - TRACES).then_some(counted.traced));
-        // A command that changes at every sample, too small to matter, and a prediction beyond it.
-        let command = Command {
-            a_cmd_c_n: Vector3::x() * (1e-12 * f64::from(k % 3)),
+        // Commands, too small to matter, that change between two samples, and a prediction over a change.
+        let command = |part: u32| Command {
+            a_cmd_c_n: Vector3::x() * (1e-12 * f64::from((k + part) % 3)),
             ..Command::default()
         };
-        nav.step(begun, sample.time - begun, &command);
+        let half = (sample.time - begun) / 2.0;
+        nav.step(begun, half, &command(0));
+        nav.step(begun + half, half, &command(1));
         nav.process(&sample, &start).unwrap();
-        nav.step(sample.time, 0.5, &command);
+        nav.step(sample.time, 0.5, &command(2));
+        nav.step(sample.time + 0.5, 0.25, &command(3));
         nav.predict();
         begun = sample.time;
         counted.traced = TRACED.take().unwrap_or_default();
