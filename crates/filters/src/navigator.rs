@@ -296,7 +296,7 @@ impl Navigator {
     ///
     /// A prediction is made anew each time from the last sample, so it depends on nothing but that and the commands.
     pub fn predict(&self) -> Prediction {
-        let ahead = self.predicted().unwrap_or_else(|| Reported {
+        let ahead = self.predicted().unwrap_or(Reported {
             x: self.estimate.x,
             p_target: self.estimate.p_target,
             sigma: self.estimate.sigma,
@@ -312,23 +312,23 @@ impl Navigator {
         if length_s.is_nan() || length_s <= 0.0 {
             return None;
         }
-        let mut kind = self.estimator.clone();
-        let estimator = kind.get_mut();
-        if !estimator.started() {
-            estimator.start(&self.expected?, self.start_s).ok()?;
-        }
-        let ahead = self.last.without_readings(self.now_s);
-        let gap = Gap {
-            from_s: self.estimate.time,
-            length_s,
-            start_s: self.start_s,
-            // A source that has stalled for long must not make every step a long one.
-            step_s: Gap::LONGEST_STEP.max(length_s / MOST_PREDICTED),
-        };
-        let f = estimator.propagate(&gap, &ahead, &self.law, &self.commands).ok()?;
-        let since = self.between.as_ref().map_or(f, |between| f * between.f);
-        estimator.defect(self.now_s).is_none().then_some(())?;
-        Some(estimator.report(&ahead, &self.law, Some(&since)))
+        self.estimator.with_copy(|estimator| {
+            if !estimator.started() {
+                estimator.start(&self.expected?, self.start_s).ok()?;
+            }
+            let ahead = self.last.without_readings(self.now_s);
+            let gap = Gap {
+                from_s: self.estimate.time,
+                length_s,
+                start_s: self.start_s,
+                // A source that has stalled for long must not make every step a long one.
+                step_s: Gap::LONGEST_STEP.max(length_s / MOST_PREDICTED),
+            };
+            let f = estimator.propagate(&gap, &ahead, &self.law, &self.commands).ok()?;
+            let since = self.between.as_ref().map_or(f, |between| f * between.f);
+            estimator.defect(self.now_s).is_none().then_some(())?;
+            Some(estimator.report(&ahead, &self.law, Some(&since)))
+        })
     }
 
     /// Position and velocity of the target relative to the chaser as estimated, axes N, m and m/s; zero in the LVLH frame where nobody

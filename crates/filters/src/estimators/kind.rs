@@ -63,4 +63,12 @@ impl Kind {
             Self::Lvlh(state) => state.as_mut(),
         }
     }
+
+    /// Does something with a copy that stands on the stack: a prediction asks for no memory.
+    pub(crate) fn with_copy<T>(&self, with: impl FnOnce(&mut dyn Estimator) -> T) -> T {
+        match self {
+            Self::Inertial(state) => with(&mut InertialState::clone(state)),
+            Self::Lvlh(state) => with(&mut LvlhState::clone(state)),
+        }
+    }
 }

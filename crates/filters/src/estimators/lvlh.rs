@@ -25,23 +25,24 @@ use serde::{Deserialize, Serialize};
 
 /// The dynamics there are in this frame.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[allow(clippy::large_enum_variant, reason = "a filter has one, in a box with all else")]
 enum Relative {
-    Circular(Box<Circular>),
-    J2(Box<J2>),
+    Circular(Circular),
+    J2(J2),
 }
 
 impl Relative {
     fn get(&self) -> &dyn RelativeMotion {
         match self {
-            Self::Circular(motion) => motion.as_ref(),
-            Self::J2(motion) => motion.as_ref(),
+            Self::Circular(motion) => motion,
+            Self::J2(motion) => motion,
         }
     }
 
     fn get_mut(&mut self) -> &mut dyn RelativeMotion {
         match self {
-            Self::Circular(motion) => motion.as_mut(),
-            Self::J2(motion) => motion.as_mut(),
+            Self::Circular(motion) => motion,
+            Self::J2(motion) => motion,
         }
     }
 }
@@ -91,15 +92,15 @@ impl LvlhState {
         let p0 = [told.p0.position, told.p0.velocity, told.p0.acceleration];
         Ok(Self {
             motion: match motion {
-                Motion::OfFrame => Relative::Circular(Box::new(Circular::new(circular))),
-                Motion::J2 => Relative::J2(Box::new(J2 {
+                Motion::OfFrame => Relative::Circular(Circular::new(circular)),
+                Motion::J2 => Relative::J2(J2 {
                     model: J2RelativeMotion {
                         mu: zonal.mu,
                         r_ref: zonal.r_ref,
                         j2: zonal.j[0],
                     },
                     circular,
-                })),
+                }),
             },
             told: Manoeuvres::of(told)?,
             acceleration,

@@ -6,6 +6,10 @@ use interface::Navigation;
 use interface::mission::{Axes, Frame, Told, Which};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
+use smallvec::SmallVec;
+
+/// Edges within a gap for which there is room in place; where more come, memory is asked for.
+const FEW: usize = 16;
 
 /// A manoeuvre of constant acceleration in its axes; SI.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,7 +36,7 @@ pub(super) struct Place {
     pub v_n: Vector3<f64>,
 }
 
-/// Steps of a gap, s; without cuts they ask for no memory.
+/// Steps of a gap, s.
 pub(super) enum Steps {
     /// Equal ones.
     Equal {
@@ -44,7 +48,7 @@ pub(super) enum Steps {
     /// From edge to edge.
     Cut {
         /// Ends of the steps, s after the begin of the gap.
-        edges: std::vec::IntoIter<f64>,
+        edges: smallvec::IntoIter<[f64; FEW]>,
         /// The last of them that was reached.
         last: f64,
     },
@@ -127,7 +131,7 @@ impl Manoeuvres {
         if cuts.peek().is_none() {
             return Steps::Equal { step, left: parts };
         }
-        let mut edges: Vec<f64> = (1..=parts).map(|k| f64::from(k) * step).collect();
+        let mut edges: SmallVec<[f64; FEW]> = (1..=parts).map(|k| f64::from(k) * step).collect();
         for edge in cuts {
             // A step that is nearly nothing would only cost.
             if edges.iter().all(|e| (e - edge).abs() > 1e-9 * length) {

@@ -62,7 +62,7 @@ pub struct Regression<const K: usize> {
 }
 
 /// Coefficients of Z_w for one w.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Difference<const M: usize> {
     /// First sample of the older window.
     pub first: usize,
@@ -77,24 +77,51 @@ pub struct Difference<const M: usize> {
 /// Residuals as they would have been had the filter not corrected itself since the oldest sample.
 ///
 /// d_{j+1} = F_j (d_j + correction_j) from d = 0, and each residual gains H_j d_j. Z does not depend on where d starts.
-pub fn open_loop_residuals<const M: usize>(samples: &[Sampled<M>]) -> Vec<SVector<f64, M>> {
+pub fn open_loop_residuals<const M: usize>(samples: &[Sampled<M>]) -> impl Iterator<Item = SVector<f64, M>> {
     let mut d = Target::zeros();
-    let mut out = Vec::with_capacity(samples.len());
-    for (j, sample) in samples.iter().enumerate() {
+    samples.iter().enumerate().map(move |(j, sample)| {
         if j > 0 {
             d = sample.f * (d + samples[j - 1].correction);
         }
-        out.push(sample.residual + sample.h * d);
+        sample.residual + sample.h * d
+    })
+}
+
+/// Room in which regressions are worked out, so that only the first of a length asks for memory. Nothing in it outlives one: a copy
+/// begins with none.
+#[derive(Debug, Default)]
+pub struct Work<const M: usize> {
+    residuals: Vec<SVector<f64, M>>,
+    /// Roots of the process noise of the newer steps, for a unit jerk density.
+    factors: Vec<Matrix3<f64>>,
+    windows: Windows<M>,
+    newest: Difference<M>,
+    earlier: Difference<M>,
+}
+
+impl<const M: usize> Clone for Work<M> {
+    fn clone(&self) -> Self {
+        Self::default()
     }
-    out
 }
 
 /// Pseudo-inverse of the stacked rows of one window.
 ///
 /// * `rows`: O, one Mx9 block for each sample.
-/// * returns: (O^T O)^-1 O^T as one 9xM block for each sample, or `None` when the window does not observe all nine states.
-fn pseudo_inverse<const M: usize>(rows: &VecDeque<Observation<M>>) -> Option<Vec<Gain<M>>> {
-    let mut q = DMatrix::from_fn(M * rows.len(), N_TARGET, |i, j| rows[i / M][(i % M, j)]);
+/// * `q`: room for the factorisation.
+/// * `out`: (O^T O)^-1 O^T as one 9xM block for each sample.
+/// * returns: `None` when the window does not observe all nine states.
+fn pseudo_inverse<const M: usize>(
+    rows: &VecDeque<Observation<M>>,
+    q: &mut DMatrix<f64>,
+    out: &mut Vec<Gain<M>>,
+) -> Option<()> {
+    if q.nrows() != M * rows.len() {
+        *q = DMatrix::zeros(M * rows.len(), N_TARGET);
+    }
+    for (sample, row) in rows.iter().enumerate() {
+        q.rows_mut(M * sample, M).copy_from(row);
+    }
     let mut r = TargetMatrix::zeros();
     // O = Q R by Gram-Schmidt, each column orthogonalised twice: as accurate as Householder and as short as the definition.
     for j in 0..N_TARGET {
@@ -124,52 +151,80 @@ fn pseudo_inverse<const M: usize>(rows: &VecDeque<Observation<M>>) -> Option<Vec
         q.column_mut(i).unscale_mut(r[(i, i)]);
     }
     let gain = |sample: usize| Gain::from_fn(|i, row| q[(M * sample + row, i)]);
-    Some((0..rows.len()).map(gain).collect())
+    out.clear();
+    out.extend((0..rows.len()).map(gain));
+    Some(())
 }
 
-/// Pseudo-inverses of the least-squares windows that start at samples 0..=m_b+1.
-///
-/// * `samples`: 2 m_b + 1, oldest first.
-/// * returns: for each window one block per sample, or `None` when a window is singular.
-fn window_gains<const M: usize>(samples: &[Sampled<M>], m_b: usize) -> Option<Vec<Vec<Gain<M>>>> {
-    // Going backwards, each window inherits the rows H_l Phi_{l,start} of the one after it times one transition.
-    let mut gains = vec![Vec::new(); m_b + 2];
-    let mut rows: VecDeque<Observation<M>> = VecDeque::with_capacity(m_b + 1);
-    for start in (0..samples.len()).rev() {
-        if let Some(next) = samples.get(start + 1) {
-            rows.iter_mut().for_each(|row| *row *= next.f);
+/// Two least-squares windows, one sample apart, on their way from the newest samples to the oldest.
+#[derive(Debug, Default)]
+struct Windows<const M: usize> {
+    /// Rows H_l Phi_{l,start} of the older window, and the factorisation of its O.
+    rows: VecDeque<Observation<M>>,
+    q: DMatrix<f64>,
+    /// Pseudo-inverse of either window, one block for each sample.
+    older: Vec<Gain<M>>,
+    newer: Vec<Gain<M>>,
+}
+
+impl<const M: usize> Windows<M> {
+    /// Begins with the window that starts at sample m_b + 1 as the older one.
+    ///
+    /// * `samples`: 2 m_b + 1, oldest first.
+    /// * returns: `None` when it is singular.
+    fn begin(&mut self, samples: &[Sampled<M>], m_b: usize) -> Option<()> {
+        self.rows.clear();
+        for start in (m_b + 2..samples.len()).rev() {
+            self.prepend(samples, start, m_b);
         }
-        rows.push_front(samples[start].h);
-        rows.truncate(m_b);
-        if start <= m_b + 1 {
-            gains[start] = pseudo_inverse(&rows)?;
-        }
+        self.back(samples, m_b + 1, m_b)
     }
-    Some(gains)
+
+    /// The older window becomes the newer one, and that which starts at sample `start`, one before it, the older.
+    ///
+    /// * returns: `None` when that is singular.
+    fn back(&mut self, samples: &[Sampled<M>], start: usize, m_b: usize) -> Option<()> {
+        self.prepend(samples, start, m_b);
+        std::mem::swap(&mut self.older, &mut self.newer);
+        pseudo_inverse(&self.rows, &mut self.q, &mut self.older)
+    }
+
+    /// Each window inherits the rows of the one after it times one transition.
+    fn prepend(&mut self, samples: &[Sampled<M>], start: usize, m_b: usize) {
+        if let Some(next) = samples.get(start + 1) {
+            self.rows.iter_mut().for_each(|row| *row *= next.f);
+        }
+        self.rows.push_front(samples[start].h);
+        self.rows.truncate(m_b);
+    }
 }
 
 /// The difference Z_w; its `a` and `z` are whole, its `b` starts at step `b_from`.
 ///
 /// * `samples`: 2 m_b + 1, oldest first.
 /// * `residuals`: one for each.
-/// * `gains`: of every window, from [`window_gains`].
+/// * `windows`: those that start at samples w and w + 1.
 /// * `w`: first sample of the older window, 0..=m_b.
 /// * `b_from`: coefficients of process noise before this step are not needed and left out of `b`.
 fn difference<const M: usize>(
     samples: &[Sampled<M>],
     residuals: &[SVector<f64, M>],
-    gains: &[Vec<Gain<M>>],
+    windows: &Windows<M>,
     w: usize,
     b_from: usize,
-) -> Difference<M> {
-    let m_b = gains[w].len();
+    out: &mut Difference<M>,
+) {
+    let m_b = windows.older.len();
     let f = &samples[w + 1].f;
-    let mut a = vec![Gain::zeros(); m_b + 1];
-    for (i, (older, newer)) in gains[w].iter().zip(&gains[w + 1]).enumerate() {
+    let Difference { first, z, a, b } = out;
+    *first = w;
+    a.clear();
+    a.resize(m_b + 1, Gain::zeros());
+    for (i, (older, newer)) in windows.older.iter().zip(&windows.newer).enumerate() {
         a[i] -= f * older;
         a[i + 1] += newer;
     }
-    let z = a
+    *z = a
         .iter()
         .zip(&residuals[w..])
         .fold(Target::zeros(), |z, (a, y)| z + a * y);
@@ -177,7 +232,8 @@ fn difference<const M: usize>(
     // H_l Phi_{l,j}. The difference of both windows' answers to nu_j at sample j + 1 is B_w[j]; A holds that
     // difference of gains, but for the older window's first sample, which precedes every nu_j.
     let first_step = b_from.max(w);
-    let mut b = vec![TargetMatrix::zeros(); w + m_b - first_step];
+    b.clear();
+    b.resize(w + m_b - first_step, TargetMatrix::zeros());
     let mut seen = TargetMatrix::zeros();
     for j in (first_step..w + m_b).rev() {
         if j + 2 <= w + m_b {
@@ -186,7 +242,6 @@ fn difference<const M: usize>(
         seen += a[j + 1 - w] * samples[j + 1].h;
         b[j - first_step] = seen;
     }
-    Difference { first: w, z, a, b }
 }
 
 /// Every difference Z_w of a window with all its coefficients, for tests and for the curious.
@@ -201,16 +256,25 @@ pub fn all_differences<const M: usize>(
     if samples.len() != 2 * m_b + 1 || m_b == 0 {
         return None;
     }
-    let (residuals, gains) = (residuals_of(samples, open_loop), window_gains(samples, m_b)?);
-    let one = |w| difference(samples, &residuals, &gains, w, 0);
-    Some((0..=m_b).map(one).collect())
+    let (mut residuals, mut windows, mut all) = (Vec::new(), Windows::default(), Vec::new());
+    residuals_of(samples, open_loop, &mut residuals);
+    windows.begin(samples, m_b)?;
+    for w in (0..=m_b).rev() {
+        windows.back(samples, w, m_b)?;
+        let mut one = Difference::default();
+        difference(samples, &residuals, &windows, w, 0, &mut one);
+        all.push(one);
+    }
+    all.reverse();
+    Some(all)
 }
 
-fn residuals_of<const M: usize>(samples: &[Sampled<M>], open_loop: bool) -> Vec<SVector<f64, M>> {
+fn residuals_of<const M: usize>(samples: &[Sampled<M>], open_loop: bool, out: &mut Vec<SVector<f64, M>>) {
+    out.clear();
     if open_loop {
-        open_loop_residuals(samples)
+        out.extend(open_loop_residuals(samples));
     } else {
-        samples.iter().map(|s| s.residual).collect()
+        out.extend(samples.iter().map(|s| s.residual));
     }
 }
 
@@ -220,6 +284,7 @@ fn residuals_of<const M: usize>(samples: &[Sampled<M>], open_loop: bool) -> Vec<
 /// * `r`: measurement noise covariance in the units (and row scaling) of the samples, MxM.
 /// * `open_loop`: whether to undo the filter's corrections first.
 /// * `entries`: of the density, those that q holds; the others are zero.
+/// * `work`: of any earlier regression, or none.
 /// * returns: `None` when there are too few samples or a window does not observe all nine states.
 pub fn regression<const M: usize, const K: usize>(
     samples: &[Sampled<M>],
@@ -227,28 +292,40 @@ pub fn regression<const M: usize, const K: usize>(
     r: &SMatrix<f64, M, M>,
     open_loop: bool,
     entries: &[Entry; K],
+    work: &mut Work<M>,
 ) -> Option<Regression<K>> {
     if samples.len() != 2 * m_b + 1 || m_b == 0 {
         return None;
     }
-    let (residuals, gains) = (residuals_of(samples, open_loop), window_gains(samples, m_b)?);
-    let factors: Vec<Matrix3<f64>> = samples[m_b + 1..].iter().map(|s| jerk::gamma_factor(s.dt)).collect();
+    let Work {
+        residuals,
+        factors,
+        windows,
+        newest,
+        earlier,
+    } = work;
+    residuals_of(samples, open_loop, residuals);
+    factors.clear();
+    factors.extend(samples[m_b + 1..].iter().map(|s| jerk::gamma_factor(s.dt)));
     // Z_k is correlated with its predecessors through samples m_b..=2 m_b only. What a unit density on one
     // axis does has rank three: B times (factor of Gamma x e_axis), 9x3 for each axis, side by side in place of B.
-    let driven = |w| {
-        let mut one = difference(samples, &residuals, &gains, w, m_b);
-        for (b, factor) in one.b.iter_mut().zip(&factors) {
+    let driven = |windows: &Windows<M>, w: usize, one: &mut Difference<M>| {
+        difference(samples, residuals, windows, w, m_b, one);
+        for (b, factor) in one.b.iter_mut().zip(factors.iter()) {
             *b = through_jerk(b, factor);
         }
-        one
     };
-    let newest = driven(m_b);
+    windows.begin(samples, m_b)?;
     let mut out = Regression {
         dt_d: SMatrix::zeros(),
         dt_c: SVector::zeros(),
     };
     for p in 0..=m_b {
-        let earlier = driven(m_b - p);
+        windows.back(samples, m_b - p, m_b)?;
+        if p == 0 {
+            driven(windows, m_b, newest);
+        }
+        driven(windows, m_b - p, earlier);
         let mut noise = TargetMatrix::zeros();
         for l in m_b..=2 * m_b - p {
             noise += newest.a[l - m_b] * r * earlier.a[l - earlier.first].transpose();
@@ -317,6 +394,16 @@ pub(super) mod tests {
     use rand_distr::{Distribution, StandardNormal};
 
     const M_B: usize = 5;
+
+    fn regression<const M: usize, const K: usize>(
+        samples: &[Sampled<M>],
+        m_b: usize,
+        r: &SMatrix<f64, M, M>,
+        open_loop: bool,
+        entries: &[Entry; K],
+    ) -> Option<Regression<K>> {
+        super::regression(samples, m_b, r, open_loop, entries, &mut Work::default())
+    }
 
     fn normal(g: &mut Generator) -> f64 {
         StandardNormal.sample(g)
@@ -478,7 +565,7 @@ pub(super) mod tests {
             samples[k].residual = samples[k].h * filtered;
             expected.push(samples[k].h * free);
         }
-        for (ours, expected) in open_loop_residuals(&samples).iter().zip(&expected) {
+        for (ours, expected) in open_loop_residuals(&samples).zip(&expected) {
             assert!((ours - expected).amax() < 1e-8);
         }
     }

@@ -3,7 +3,7 @@
 
 use super::adaptation::Setup;
 use super::bank::velocity_change::VelocityChanges;
-use super::bank::{Bank, CONSTANTS, Centre, Member, Mixture, Shared, Weights};
+use super::bank::{Bank, CONSTANTS, Centre, LogLikelihoods, Member, Mixture, Shared, Weights};
 use super::change_point::{DECIDED, DIRECTIONS, QUIET, RATE, SCHEDULE, WINDOW, velocity_changes};
 use super::entry::{FilterEntry, Motion, Update};
 use super::mmae::{self, Decades};
@@ -136,7 +136,8 @@ impl Bank for Hybrid {
     }
 
     fn take(&mut self, shared: &Shared) {
-        let mut likelihoods = vec![self.changes.take(shared)];
+        let mut likelihoods = LogLikelihoods::new();
+        likelihoods.push(self.changes.take(shared));
         self.white.take(shared, &mut likelihoods);
         let f = shared.with_acceleration();
         for Walking { density, member } in &mut self.walking {

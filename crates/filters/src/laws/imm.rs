@@ -1,14 +1,14 @@
 //! Interacting multiple models over constant white-acceleration densities (Blom and Bar-Shalom, 1988).
 
-use numerics::math;
-
 use super::adaptation::Setup;
-use super::bank::{Bank, CONSTANTS, Centre, Mixture, Shared, reweigh};
+use super::bank::{Bank, CONSTANTS, Centre, LogLikelihoods, MOST_MEMBERS, Mixture, Shared, reweigh};
 use super::entry::{FilterEntry, Motion, Search, Update};
 use super::mmae::{Decades, LOWEST, MEMBERS};
 use crate::error::FilterError;
 use crate::tunable::{Bound, Kind, Start, Tunable};
+use arrayvec::ArrayVec;
 use nalgebra::Vector6;
+use numerics::math;
 use serde::{Deserialize, Serialize};
 
 pub(super) const ENTRY: FilterEntry = FilterEntry {
@@ -74,9 +74,9 @@ impl Imm {
             let stay = if i == j { 1.0 - leave * count as f64 } else { 0.0 };
             self.weights[i] * (stay + leave)
         };
-        let mut mixed = Vec::with_capacity(count);
+        let mut mixed = ArrayVec::<_, MOST_MEMBERS>::new();
         for to in 0..count {
-            let into: Vec<f64> = (0..count).map(|i| from(i, to)).collect();
+            let into: ArrayVec<f64, MOST_MEMBERS> = (0..count).map(|i| from(i, to)).collect();
             mixed.push((into.iter().sum::<f64>(), self.decades.mixture(&into).moments()));
         }
         for ((member, weight), (sum, mixture)) in self.decades.members.iter_mut().zip(&mut self.weights).zip(mixed) {
@@ -98,7 +98,7 @@ impl Bank for Imm {
         if self.centre.said().is_some() {
             self.mix(shared.dt);
         }
-        let mut likelihoods = Vec::with_capacity(self.weights.len());
+        let mut likelihoods = LogLikelihoods::new();
         self.decades.take(shared, &mut likelihoods);
         reweigh(&mut self.weights, &likelihoods, 0.0);
     }

@@ -474,7 +474,7 @@ mod tests {
                 correction: s.correction,
             })
             .collect();
-        let restored = correlation::open_loop_residuals(&sampled);
+        let restored: Vec<Vector3<f64>> = correlation::open_loop_residuals(&sampled).collect();
         let uncorrected = |innovation: Option<&Vector3<f64>>, step: &Step| Step {
             innovation: innovation.map_or(step.innovation, |z| z.fixed_resize(0.0)),
             correction: Target::zeros(),

@@ -1,7 +1,7 @@
 //! Multiple-model adaptive estimation over constant white-acceleration densities.
 
 use super::adaptation::Setup;
-use super::bank::{Bank, CONSTANTS, Centre, Member, Mixture, Shared, Weights, white};
+use super::bank::{Bank, CONSTANTS, Centre, LogLikelihoods, MOST_MEMBERS, Member, Mixture, Shared, Weights, white};
 use super::entry::{FilterEntry, Motion, Update};
 use crate::error::FilterError;
 use crate::tunable::{Bound, Kind, Start, Tunable};
@@ -38,7 +38,7 @@ pub(super) const MEMBERS: Tunable = Tunable {
     kind: Kind::Integer {
         start: 6,
         min: 1,
-        max: 12,
+        max: MOST_MEMBERS as i32,
     },
 };
 
@@ -88,7 +88,7 @@ impl Decades {
     }
 
     /// Takes a sample in; log-likelihoods are added to `into`.
-    pub(super) fn take(&mut self, shared: &Shared, into: &mut Vec<f64>) {
+    pub(super) fn take(&mut self, shared: &Shared, into: &mut LogLikelihoods) {
         for (member, density) in self.members.iter_mut().zip(&self.densities) {
             into.push(shared.take(member, &shared.f, &white(*density, shared.dt), 0.0));
         }
@@ -152,7 +152,7 @@ impl Bank for Mmae {
     }
 
     fn take(&mut self, shared: &Shared) {
-        let mut likelihoods = Vec::with_capacity(self.decades.members.len());
+        let mut likelihoods = LogLikelihoods::new();
         self.decades.take(shared, &mut likelihoods);
         self.weights.update(shared.dt, &likelihoods, 0.0);
     }

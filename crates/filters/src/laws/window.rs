@@ -1,7 +1,7 @@
 //! The buffer of samples that laws on innovation correlation share: when it is full it yields one regression.
 
 use super::adaptation::{Setup, Step};
-use super::correlation::{self, Entry, Regression, Sampled};
+use super::correlation::{self, Entry, Regression, Sampled, Work};
 use crate::error::FilterError;
 use crate::state::MAX_ROWS;
 use crate::tunable::{Kind, Scales, Tunable};
@@ -110,6 +110,8 @@ pub(super) struct Samples<const M: usize> {
     /// Oldest first, their rows scaled.
     samples: VecDeque<Sampled<M>>,
     skipped: i32,
+    #[serde(skip)]
+    work: Work<M>,
 }
 
 impl<const M: usize> Samples<M> {
@@ -122,13 +124,15 @@ impl<const M: usize> Samples<M> {
         } else {
             (variances, SVector::repeat(1.0))
         };
+        let m_b = setup.tunables.integer(M_B.name)? as usize;
         Ok(Self {
-            m_b: setup.tunables.integer(M_B.name)? as usize,
+            m_b,
             open_loop: setup.tunables.choice(RESIDUALS.name)? == 1,
             r,
             row_scale,
-            samples: VecDeque::new(),
+            samples: VecDeque::with_capacity(2 * m_b + 1),
             skipped: 0,
+            work: Work::default(),
         })
     }
 
@@ -145,7 +149,8 @@ impl<const M: usize> Samples<M> {
             return None;
         }
         let r = SMatrix::from_diagonal(&self.r);
-        let found = correlation::regression(self.samples.make_contiguous(), self.m_b, &r, self.open_loop, entries);
+        let samples = self.samples.make_contiguous();
+        let found = correlation::regression(samples, self.m_b, &r, self.open_loop, entries, &mut self.work);
         self.samples.drain(..self.m_b + 1);
         if found.is_none() {
             self.skipped += 1;

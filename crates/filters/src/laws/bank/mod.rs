@@ -21,7 +21,7 @@ pub use mixture::Replacement;
 pub(super) use centre::{Centre, Shared, white};
 pub(super) use member::Member;
 pub(super) use mixture::Mixture;
-pub(super) use weights::{Weights, reweigh};
+pub(super) use weights::{LogLikelihoods, MOST_MEMBERS, Weights, reweigh};
 
 use super::adaptation::{Adaptation, Step};
 use crate::dynamics::AccelerationModel;

@@ -1,7 +1,14 @@
 //! Weights of the members of a bank that do not exchange states (multiple-model adaptive estimation).
 
+use arrayvec::ArrayVec;
 use numerics::math;
 use serde::{Deserialize, Serialize};
+
+/// Members of a bank at most.
+pub(in crate::laws) const MOST_MEMBERS: usize = 12;
+
+/// A log-likelihood for each member, in the order of their weights; on the stack, since every step makes one.
+pub(in crate::laws) type LogLikelihoods = ArrayVec<f64, MOST_MEMBERS>;
 
 /// Multiplies weights by likelihoods, and makes them sum to one.
 ///

@@ -1,6 +1,7 @@
 //! The regression solved for a diagonal density: a quadratic programme in three unknowns.
 
 use super::conic::{self, Almost, NoAnswer};
+use arrayvec::ArrayVec;
 use clarabel::solver::NonnegativeConeT;
 use nalgebra::{Matrix3, Vector3};
 
@@ -24,8 +25,9 @@ pub(super) fn minimise(h: &Matrix3<f64>, g: &Vector3<f64>, lower: f64, upper: f6
     let cost = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
     let linear: [f64; 3] = std::array::from_fn(|i| -rest[i] / size);
     let unit = |i: usize, value: f64| std::array::from_fn(|j| if i == j { value } else { 0.0 });
-    let mut rows: Vec<[f64; 3]> = (0..3).map(|i| unit(i, -1.0)).collect();
-    let mut limits = vec![0.0; 3];
+    // A lower bound each, and an upper one.
+    let mut rows: ArrayVec<[f64; 3], 6> = (0..3).map(|i| unit(i, -1.0)).collect();
+    let mut limits: ArrayVec<f64, 6> = [0.0; 3].into_iter().collect();
     // An upper bound is stated once an answer exceeds it: the solver's tolerances are relative to the limits, and a bound
     // nine decades away makes it give up.
     let mut stated = [false; 3];

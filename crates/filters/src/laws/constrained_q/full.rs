@@ -27,9 +27,10 @@ struct Margin {
     scale: Vector3<f64>,
 }
 
-/// The cuts made so far, in the form of the solver: limits - rows u in one second-order cone of three rows for each.
-#[derive(Default)]
-struct Cuts {
+/// The cuts made so far, in the form of the solver: limits - rows u in one second-order cone of three rows for each. Kept from one
+/// answer to the next for its memory alone.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cuts {
     rows: Vec<[f64; 6]>,
     limits: Vec<f64>,
     cones: Vec<SupportedConeT<f64>>,
@@ -71,6 +72,14 @@ impl Margin {
     }
 }
 
+impl Cuts {
+    fn clear(&mut self) {
+        self.rows.clear();
+        self.limits.clear();
+        self.cones.clear();
+    }
+}
+
 /// The symmetric matrix of the six entries.
 fn matrix(entries: &Vector6<f64>) -> Matrix3<f64> {
     let mut m = Matrix3::zeros();
@@ -89,10 +98,17 @@ fn entries(m: &Matrix3<f64>) -> Vector6<f64> {
 /// The symmetric Q with `lower` I <= Q <= `upper` I that minimises 1/2 q^T h q - g^T q, q its six entries.
 ///
 /// * `h`, `g`: 6x6, symmetric, positive definite, and 6, in the order of [`FULL`].
+/// * `cuts`: of any earlier answer, or none; they are made anew.
 ///
 /// # Errors
 /// See [`NoAnswer`]; `None` also when the last of the rounds still violates a bound.
-pub(super) fn minimise(h: &Matrix6<f64>, g: &Vector6<f64>, lower: f64, upper: f64) -> Result<Matrix3<f64>, NoAnswer> {
+pub(super) fn minimise(
+    h: &Matrix6<f64>,
+    g: &Vector6<f64>,
+    lower: f64,
+    upper: f64,
+    cuts: &mut Cuts,
+) -> Result<Matrix3<f64>, NoAnswer> {
     // Densities span many decades: Q = lower I + size S U S with a diagonal S that gives the Hessian of U ones where U has
     // its diagonal, and a size that gives the linear term one.
     let side = Vector3::from_fn(|i, _| {
@@ -121,9 +137,9 @@ pub(super) fn minimise(h: &Matrix6<f64>, g: &Vector6<f64>, lower: f64, upper: f6
         sign: -1.0,
         scale: side * (size / (upper - lower)).sqrt(),
     };
-    let mut cuts = Cuts::default();
+    cuts.clear();
     // A bound that the answer keeps clear of is never mentioned to the solver: its tolerances are relative to the limits.
-    above.cut(&Matrix3::identity(), &[true; 3], &mut cuts);
+    above.cut(&Matrix3::identity(), &[true; 3], cuts);
     for _ in 0..ROUNDS {
         let u = conic::solve(&cost, &linear, &cuts.rows, &cuts.limits, &cuts.cones, Almost::Taken)?;
         let u = matrix(&Vector6::from(u));
@@ -131,7 +147,7 @@ pub(super) fn minimise(h: &Matrix6<f64>, g: &Vector6<f64>, lower: f64, upper: f6
         for (margin, largest) in [(&above, u.amax().max(1.0)), (&below, 1.0)] {
             let eigen = margin.at(&u).symmetric_eigen();
             let violated: [bool; 3] = std::array::from_fn(|i| eigen.eigenvalues[i] < -TOLERANCE * largest);
-            margin.cut(&eigen.eigenvectors, &violated, &mut cuts);
+            margin.cut(&eigen.eigenvectors, &violated, cuts);
             kept &= !violated.contains(&true);
         }
         if kept {
@@ -155,6 +171,10 @@ mod tests {
     use super::*;
     use numerics::{Generator, Source, stream};
     use rand_distr::{Distribution, StandardNormal};
+
+    fn minimise(h: &Matrix6<f64>, g: &Vector6<f64>, lower: f64, upper: f64) -> Result<Matrix3<f64>, NoAnswer> {
+        super::minimise(h, g, lower, upper, &mut Cuts::default())
+    }
 
     fn normal(g: &mut Generator) -> f64 {
         StandardNormal.sample(g)

@@ -11,7 +11,7 @@ use numerics::math;
 use super::programme::{self, Bounds, MEMBERS, PerMember};
 use crate::error::FilterError;
 use crate::laws::adaptation::Setup;
-use crate::laws::bank::{Bank, Centre, Mixture, Shared};
+use crate::laws::bank::{Bank, Centre, LogLikelihoods, Mixture, Shared};
 use crate::laws::mmae::Decades;
 use crate::tunable::{Bound, Kind, Start, Tunable};
 use nalgebra::Vector6;
@@ -220,7 +220,7 @@ impl Bank for ByLikelihood {
     }
 
     fn take(&mut self, shared: &Shared) {
-        let mut likelihoods = Vec::with_capacity(MEMBERS);
+        let mut likelihoods = LogLikelihoods::new();
         self.white.take(shared, &mut likelihoods);
         // Where nothing was measured all likelihoods are alike, and time passes.
         self.evidence.gather(shared.dt, &likelihoods);

@@ -2,13 +2,19 @@
 
 use super::conic::{self, Almost, NoAnswer};
 use crate::laws::bank::reweigh;
-use clarabel::solver::{ExponentialConeT, NonnegativeConeT, ZeroConeT};
+use arrayvec::ArrayVec;
+use clarabel::solver::{ExponentialConeT, NonnegativeConeT, SupportedConeT, ZeroConeT};
 use serde::{Deserialize, Serialize};
 
 /// Members of the bank.
 pub(super) const MEMBERS: usize = 11;
 /// Unknowns of the programme: a weight w and a share t <= -w ln w of the entropy for each member.
 const UNKNOWNS: usize = 2 * MEMBERS;
+
+/// Cones at most: the sum of the weights, two bounds, and one for each member.
+const CONES: usize = 3 + MEMBERS;
+/// Rows at most, three for each member.
+const ROWS: usize = 3 + 3 * MEMBERS;
 
 /// One number for each member.
 pub(super) type PerMember = [f64; MEMBERS];
@@ -67,7 +73,12 @@ fn by_cones(evidence: &PerMember, bounds: &Bounds) -> Result<PerMember, NoAnswer
         |f: &dyn Fn(usize) -> f64| std::array::from_fn::<f64, UNKNOWNS, _>(|k| if k < MEMBERS { f(k) } else { 0.0 });
     let minus_unit = |at: usize| std::array::from_fn::<f64, UNKNOWNS, _>(|k| if k == at { -1.0 } else { 0.0 });
     let linear = std::array::from_fn(|k| if k < MEMBERS { most - evidence[k] } else { -1.0 });
-    let (mut rows, mut limits, mut cones) = (vec![over_weights(&|_| 1.0)], vec![1.0], vec![ZeroConeT(1)]);
+    let mut rows = ArrayVec::<[f64; UNKNOWNS], ROWS>::new();
+    let mut limits = ArrayVec::<f64, ROWS>::new();
+    let mut cones = ArrayVec::<SupportedConeT<f64>, CONES>::new();
+    rows.push(over_weights(&|_| 1.0));
+    limits.push(1.0);
+    cones.push(ZeroConeT(1));
     for (sign, limit) in [(-1.0, -bounds.low), (1.0, bounds.high)] {
         if limit.is_finite() {
             rows.push(over_weights(&|k| sign * bounds.of[k]));

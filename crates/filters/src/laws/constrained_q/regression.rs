@@ -13,6 +13,7 @@
 
 use numerics::math;
 
+use super::full::Cuts;
 use super::{diagonal, full};
 use crate::error::FilterError;
 use crate::jerk;
@@ -37,6 +38,8 @@ pub struct ByRegression {
     lower: f64,
     upper: f64,
     evidence: Evidence,
+    #[serde(skip)]
+    cuts: Cuts,
     /// Density in use.
     q: Matrix3<f64>,
     updates: i32,
@@ -111,6 +114,7 @@ impl ByRegression {
             } else {
                 Evidence::Diagonal(Fit::new(&DIAGONAL, prior, spread))
             },
+            cuts: Cuts::default(),
             q: Matrix3::identity() * prior.clamp(lower, upper),
             updates: 0,
             unsolved: 0,
@@ -134,7 +138,7 @@ impl Adaptation for ByRegression {
             }),
             Evidence::Full(fit) => self.window.push(step, &FULL).map(|regression| {
                 let (h, g) = fit.gather(&regression, self.fade, self.r_w);
-                full::minimise(&h, &g, self.lower, self.upper)
+                full::minimise(&h, &g, self.lower, self.upper, &mut self.cuts)
             }),
         };
         match answer {
@@ -269,7 +273,7 @@ mod tests {
             dt_c: SVector::zeros(),
         };
         let (h, g) = Fit::<6>::new(&FULL, 0.04, 0.5).gather(&nothing, 0.9, 1.0);
-        let q = full::minimise(&h, &g, 1e-4, 10.0).unwrap();
+        let q = full::minimise(&h, &g, 1e-4, 10.0, &mut Cuts::default()).unwrap();
         assert!(silent(&q), "{q}");
         let cost = |q: &Matrix3<f64>| {
             let q = Vector6::from(FULL.map(|entry| q[entry]));

@@ -9,12 +9,15 @@ use numerics::math;
 
 use super::axes::Axes;
 use super::hypothesis::{Prior, SIZES};
+use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Lobes in one set of axes at most.
 const MOST: usize = 3;
+/// Priors of one hypothesis at most: of each size in any direction, and along each lobe.
+const MOST_PRIORS: usize = SIZES * (MOST + 1);
 /// How far single changes scatter about the middle of a lobe, rad.
 const SCATTER: f64 = 0.03;
 /// Directions less well known than this say nothing, rad.
@@ -23,6 +26,9 @@ const LEAST_KNOWN: f64 = 0.5;
 const NEW: f64 = 0.25;
 /// Sizes of a lobe with less than this share of its changes are left to the hypotheses of any direction.
 const LEAST_SHARE: f64 = 0.05;
+
+/// What is expected of a change, in place: hypotheses come and go, and a step asks for no memory.
+pub(super) type Priors = ArrayVec<Prior, MOST_PRIORS>;
 
 /// A change that has been found and watched: what the data say of it, whatever was known of its direction before.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +52,7 @@ pub(super) struct Directions {
 
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Set {
-    lobes: Vec<Lobe>,
+    lobes: ArrayVec<Lobe, MOST>,
     /// How well it has foretold the directions that came, as a log-likelihood.
     ln_evidence: f64,
 }
@@ -78,13 +84,13 @@ impl Directions {
     ///
     /// * `sizes`: m/s in internal units; `rates`: of each size in any direction, 1/s.
     /// * `per_found`: rate for each change that has been found, 1/s.
-    pub(super) fn priors(&self, axes: &Axes, sizes: &[f64; SIZES], rates: &[f64; SIZES], per_found: f64) -> Vec<Prior> {
+    pub(super) fn priors(&self, axes: &Axes, sizes: &[f64; SIZES], rates: &[f64; SIZES], per_found: f64) -> Priors {
         let better = usize::from(self.sets[1].ln_evidence > self.sets[0].ln_evidence);
         let (set, axes) = (&self.sets[better], &axes.0[better]);
         let all: f64 = set.lobes.iter().map(Lobe::count).sum();
         let known = all / (all + NEW);
         let mut open = *rates;
-        let mut priors = Vec::with_capacity(SIZES * (MOST + 1));
+        let mut priors = Priors::new();
         for lobe in &set.lobes {
             for (place, found) in lobe.found.iter().enumerate() {
                 let rate = (known * found * per_found).min(open[place]);
@@ -105,7 +111,7 @@ impl Set {
     fn learn(&mut self, along: &Vector3<f64>, variance: f64, weights: &[f64; SIZES]) {
         let all: f64 = self.lobes.iter().map(Lobe::count).sum();
         let total = all + NEW;
-        let mut shares: Vec<f64> = self
+        let mut shares: ArrayVec<f64, MOST> = self
             .lobes
             .iter()
             .map(|lobe| lobe.count() / total * von_mises_fisher(lobe.middle().dot(along), lobe.variance() + variance))

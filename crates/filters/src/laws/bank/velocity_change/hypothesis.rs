@@ -6,6 +6,7 @@ use super::super::centre::{Shared, white};
 use super::super::member::{Likelihood, Member, Taken};
 use super::super::rows::Row;
 use super::axes::Axes;
+use super::directions::Priors;
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -84,7 +85,7 @@ pub(super) struct Hypothesis {
     /// By how much longer it counts, since a change was due, s.
     pub due: f64,
     /// What was expected.
-    pub priors: Vec<Prior>,
+    pub priors: Priors,
     /// Largest exponent of a likelihood, of the newest sample.
     pub exponent: f64,
     /// Sum of rates times likelihoods over the exponential of it, 1/s.
@@ -125,7 +126,7 @@ impl Part {
 }
 
 impl Hypothesis {
-    pub(super) fn new(due: f64, priors: Vec<Prior>, axes: Axes, first: bool) -> Self {
+    pub(super) fn new(due: f64, priors: Priors, axes: Axes, first: bool) -> Self {
         let mut e = Matrix6x3::zeros();
         e.fixed_view_mut::<3, 3>(3, 0).fill_with_identity();
         Self {

@@ -22,7 +22,7 @@ use nalgebra::{Matrix6, Vector6};
 use numerics::{math, spd};
 use schedule::Schedule;
 use serde::{Deserialize, Serialize};
-use watched::{Watched, found};
+use watched::{Said, Watched, found};
 
 /// Sizes of a change, m/s.
 const CHANGES: [f64; SIZES] = [1e-4, 1e-3, 1e-2, 1e-1, 1.0];
@@ -82,6 +82,9 @@ pub(in crate::laws) struct VelocityChanges {
     schedule: Option<Schedule>,
     /// The last that was decided upon, while it tells where it pointed.
     watched: Option<Watched>,
+    /// Room for the next one's record while none is watched; what is in it means nothing.
+    #[serde(skip)]
+    room: Vec<Said>,
     /// Time since something was measured first, s; `None` before.
     elapsed: Option<f64>,
     /// Time since the last was opened, s; infinite before the first.
@@ -117,17 +120,19 @@ impl VelocityChanges {
                 dx: Vector6::zeros(),
                 p: Matrix6::zeros(),
             },
-            open: Vec::new(),
+            open: Vec::with_capacity(most_open(parameters.window)),
             found: [0.0; SIZES],
             directions: parameters.directions.then(Directions::default),
             schedule: parameters.schedule.then(Schedule::default),
             watched: None,
+            room: watched::room(parameters.window),
             elapsed: None,
             since: f64::INFINITY,
             decisions: 0,
             weighed: Weighed {
+                ln_total: 0.0,
                 quiet: 1.0,
-                ..Weighed::default()
+                parts: Vec::with_capacity(most_open(parameters.window)),
             },
         }
     }
@@ -240,11 +245,19 @@ impl VelocityChanges {
                 .for_each(|(sum, weight)| *sum += weight);
         }
         self.count(&weights);
-        self.watched = watched.map(|hypothesis| Watched::new(self.quiet.clone(), hypothesis, weights));
+        self.watched = watched.map(|hypothesis| {
+            let room = std::mem::take(&mut self.room);
+            Watched::new(self.quiet.clone(), hypothesis, weights, room)
+        });
         self.quiet = Member { dx: mean, p };
+        // Both begin anew in the memory that they have.
+        open.clear();
+        parts.clear();
+        self.open = open;
         self.weighed = Weighed {
+            ln_total: 0.0,
             quiet: 1.0,
-            ..Weighed::default()
+            parts,
         };
         self.decisions += 1;
     }
@@ -272,11 +285,11 @@ impl VelocityChanges {
     ///
     /// * `spoilt_s`: for how long the data have spoken of something else, too.
     fn remember_watched(&mut self, spoilt_s: f64) {
-        if let (Some(watched), Some(directions)) = (self.watched.take(), &mut self.directions)
-            && let Some(found) = watched.found(spoilt_s)
-        {
+        let Some(watched) = self.watched.take() else { return };
+        if let (Some(found), Some(directions)) = (watched.found(spoilt_s), &mut self.directions) {
             directions.learn(&found);
         }
+        self.room = watched.into_room();
     }
 
     /// Learns when a change came of which these hypotheses speak.
@@ -377,6 +390,14 @@ impl VelocityChanges {
         self.weighed.parts.push(Part::default());
         self.since = 0.0;
     }
+}
+
+/// Hypotheses at most: as many as stand between the ages at which they are thinned, one more at each of these, and one that stands
+/// for a time within the window though it is older.
+fn most_open(window: f64) -> usize {
+    let ends = THINNED[1..].iter().map(|(from, _)| *from).chain([window]);
+    let between = |((from, spacing), to): (&(f64, f64), f64)| ((to - from).max(0.0) / spacing) as usize + 1;
+    THINNED.iter().zip(ends).map(between).sum::<usize>() + 1
 }
 
 /// How far apart hypotheses of this age stand, s.
@@ -598,7 +619,7 @@ mod tests {
             }
             assert_eq!(changes.decisions(), 0);
             let ages: Vec<f64> = changes.open.iter().map(|h| h.age).collect();
-            assert!(ages.len() <= 20, "{ages:?}");
+            assert!(ages.len() <= 20 && ages.len() <= most_open(changes.window), "{ages:?}");
             for (pair, older) in ages.windows(2).zip(&changes.open) {
                 let apart = pair[0] - pair[1];
                 assert!(apart >= spacing(pair[1]) - TICK, "{ages:?}");

@@ -4,6 +4,7 @@
 //! one T after any of them; what was expected in this way and did not come speaks against it. So the chance of a change a lag
 //! after one that was found is (pairs with this lag) / (1 + changes after which it could have come).
 
+use arrayvec::ArrayVec;
 use numerics::math;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -20,7 +21,7 @@ const SAME: f64 = 4.0;
 /// Times at which changes were found.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Schedule {
-    events: Vec<Event>,
+    events: ArrayVec<Event, MOST>,
 }
 
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]

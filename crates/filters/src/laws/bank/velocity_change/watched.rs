@@ -29,7 +29,7 @@ pub(super) struct Watched {
 
 /// What the data had said when the change was this old.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-struct Said {
+pub(super) struct Said {
     /// s.
     age: f64,
     /// C, 3x3, and d.
@@ -39,13 +39,15 @@ struct Said {
 }
 
 impl Watched {
-    pub(super) fn new(without: Member<6>, hypothesis: Hypothesis, weights: [f64; SIZES]) -> Self {
-        let said = vec![Said::of(&hypothesis)];
+    /// * `room`: for what the data say, as [`room`] makes it or [`Watched::into_room`] leaves it.
+    pub(super) fn new(without: Member<6>, hypothesis: Hypothesis, weights: [f64; SIZES], mut room: Vec<Said>) -> Self {
+        room.clear();
+        room.push(Said::of(&hypothesis));
         Self {
             without,
             hypothesis,
             weights,
-            said,
+            said: room,
         }
     }
 
@@ -73,8 +75,8 @@ impl Watched {
     /// What the data say of it; `None` where all of it is spoilt.
     ///
     /// * `spoilt_s`: for how long they have spoken of something else, too.
-    pub(super) fn found(self, spoilt_s: f64) -> Option<Found> {
-        let mut hypothesis = self.hypothesis;
+    pub(super) fn found(&self, spoilt_s: f64) -> Option<Found> {
+        let mut hypothesis = self.hypothesis.clone();
         if spoilt_s > 0.0 {
             let mut newest_first = self.said.iter().rev();
             let Said { c, d, .. } = newest_first.find(|said| hypothesis.age - said.age >= spoilt_s)?;
@@ -82,6 +84,16 @@ impl Watched {
         }
         Some(found(&hypothesis, &self.weights))
     }
+
+    /// The memory that it leaves to the next one.
+    pub(super) fn into_room(self) -> Vec<Said> {
+        self.said
+    }
+}
+
+/// Room for what the data say of a change that is watched until it is this old, s.
+pub(super) fn room(window: f64) -> Vec<Said> {
+    Vec::with_capacity((window / KEPT) as usize + 2)
 }
 
 impl Said {
