@@ -3,12 +3,12 @@
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use fmi2_import::{Experiment, Value};
 
 use crate::exchange::{Bundle, Routes};
 use crate::system::{Member, PortAt};
+use crate::timing::{Meter, Part};
 use crate::units::{Relation, relation};
 use crate::{CosimError, Port, Sample, Slave, SlaveError, SlaveId, System};
 
@@ -45,7 +45,7 @@ pub struct RunOptions {
     pub scheme: Scheme,
     /// What a failing slave means for the others.
     pub on_slave_error: OnSlaveError,
-    /// Whether to measure where the time goes.
+    /// Whether to measure where the time goes, see [`crate::SlaveTiming`].
     pub timing: bool,
 }
 
@@ -101,19 +101,6 @@ pub struct Isolated {
     pub error: CosimError,
 }
 
-/// Wall-clock time spent in one slave while the run was stepping.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct SlaveTiming {
-    /// Its name.
-    pub name: String,
-    /// Handing over inputs.
-    pub set: Duration,
-    /// Stepping.
-    pub step: Duration,
-    /// Fetching outputs, and reading samples.
-    pub get: Duration,
-}
-
 /// How a run went.
 #[derive(Debug, Clone)]
 #[must_use]
@@ -125,7 +112,7 @@ pub struct RunReport<B> {
     /// Slaves that left the run, in the order in which they did.
     pub isolated: Vec<Isolated>,
     /// One entry per slave, in their order; empty unless [`RunOptions::timing`] asks for it.
-    pub timings: Vec<SlaveTiming>,
+    pub timings: Vec<crate::SlaveTiming>,
 }
 
 /// The system at a communication point, as the callback of [`System::run`] sees it.
@@ -172,9 +159,7 @@ impl StepContext<'_> {
                 slave: member.name.clone(),
             });
         }
-        let result = timed(self.run.options.timing, &mut self.run.timings[i].get, || {
-            sample.bundle.get(member.slave.as_mut())
-        });
+        let result = (self.run.meter).take_apart(i, Part::Get, || sample.bundle.get(member.slave.as_mut()));
         let Err(error) = result else {
             sample.convert();
             return Ok(());
@@ -204,7 +189,7 @@ struct Run {
     routes: Vec<Routes>,
     /// Slaves fed by each slave, directly or through others.
     dependents: Vec<Vec<usize>>,
-    timings: Vec<SlaveTiming>,
+    meter: Meter,
     isolated: Vec<Isolated>,
     /// Error of a reading in the callback that ends the run.
     stopped: Option<CosimError>,
@@ -259,6 +244,7 @@ fn run<B>(
         if broke.is_some() || done == steps {
             break;
         }
+        run.meter.next_step();
         match options.scheme {
             Scheme::GaussSeidel => run.step_gauss_seidel(members)?,
             Scheme::Jacobi => run.step_jacobi(members)?,
@@ -274,7 +260,7 @@ fn run<B>(
         steps: done,
         broke,
         isolated: run.isolated,
-        timings: if options.timing { run.timings } else { Vec::new() },
+        timings: run.meter.finish(members.iter().map(|m| m.name.as_str())),
     })
 }
 
@@ -305,13 +291,7 @@ impl Run {
             inputs,
             routes,
             dependents: (0..count).map(|i| dependents(connections, i)).collect(),
-            timings: members
-                .iter()
-                .map(|m| SlaveTiming {
-                    name: m.name.clone(),
-                    ..Default::default()
-                })
-                .collect(),
+            meter: Meter::new(options.timing, count),
             isolated: Vec::new(),
             stopped: None,
         }
@@ -348,13 +328,6 @@ impl Run {
         self.for_each(members, |_, _, slave| slave.exit_initialization())?;
         // Leaving initialization may have settled the outputs.
         self.for_each(members, Self::fetch)?;
-        // Timings are about stepping.
-        for timing in &mut self.timings {
-            *timing = SlaveTiming {
-                name: std::mem::take(&mut timing.name),
-                ..Default::default()
-            };
-        }
         Ok(())
     }
 
@@ -381,7 +354,7 @@ impl Run {
     /// Hands the newest outputs of its sources to slave `i`.
     fn serve(&mut self, i: usize, slave: &mut dyn Slave) -> Result<(), SlaveError> {
         let (routes, outputs, inputs) = (&self.routes[i], &self.outputs, &mut self.inputs[i]);
-        timed(self.options.timing, &mut self.timings[i].set, || {
+        self.meter.take(i, Part::Set, || {
             routes.gather(outputs, inputs);
             inputs.set(slave)
         })
@@ -389,15 +362,13 @@ impl Run {
 
     fn advance(&mut self, i: usize, slave: &mut dyn Slave) -> Result<(), SlaveError> {
         let (time, step) = (self.time, self.options.step);
-        timed(self.options.timing, &mut self.timings[i].step, || {
-            slave.do_step(time, step)
-        })
+        self.meter.take(i, Part::Step, || slave.do_step(time, step))
     }
 
     /// Fetches the connected outputs of slave `i`.
     fn fetch(&mut self, i: usize, slave: &mut dyn Slave) -> Result<(), SlaveError> {
         let outputs = &mut self.outputs[i];
-        timed(self.options.timing, &mut self.timings[i].get, || outputs.get(slave))
+        self.meter.take(i, Part::Get, || outputs.get(slave))
     }
 
     /// Calls `action` for each slave that still takes part, in order.
@@ -503,15 +474,4 @@ fn dependents(connections: &[(PortAt, PortAt)], i: usize) -> Vec<usize> {
     }
     reached.swap_remove(0);
     reached
-}
-
-/// Runs `action`, adding its duration to `total` if `on`.
-fn timed<T>(on: bool, total: &mut Duration, action: impl FnOnce() -> T) -> T {
-    if !on {
-        return action();
-    }
-    let begin = Instant::now();
-    let result = action();
-    *total += begin.elapsed();
-    result
 }

@@ -1,5 +1,6 @@
 //! Whether a variable may be set, and to which value.
 
+use crate::bounds::Bounds;
 use crate::error::InstanceError;
 use crate::phase::Phase;
 use crate::variable::{Causality, Entry, Scalar, Typed};
@@ -14,11 +15,16 @@ pub(crate) fn check_settable<M>(entry: Entry<'_, M>, phase: Phase) -> Result<(),
     if settable {
         return Ok(());
     }
-    Err(InstanceError::NotSettable {
+    Err(not_settable(entry, phase))
+}
+
+#[cold]
+fn not_settable<M>(entry: Entry<'_, M>, phase: Phase) -> InstanceError {
+    InstanceError::NotSettable {
         name: entry.name().into_owned(),
         causality: entry.row.causality,
         phase,
-    })
+    }
 }
 
 /// A value that can be held against the bounds of its row.
@@ -32,39 +38,51 @@ pub trait Checked: Scalar {
 
 impl Checked for f64 {
     fn check<M>(value: &Self, entry: Entry<'_, M>) -> Result<(), InstanceError> {
+        let fits = match &entry.row.typed {
+            Typed::Real { bounds, .. } if value.is_finite() => bounds.admit(*value),
+            Typed::Real { bounds, .. } => bounds.any_number,
+            _ => value.is_finite(),
+        };
+        if fits { Ok(()) } else { Err(unfit_real(*value, entry)) }
+    }
+}
+
+#[cold]
+fn unfit_real<M>(value: f64, entry: Entry<'_, M>) -> InstanceError {
+    match &entry.row.typed {
+        Typed::Real { bounds, .. } if value.is_finite() => {
+            let unit = entry.unit().filter(|unit| *unit != "1").unwrap_or_default();
+            InstanceError::OutOfBounds {
+                name: entry.name().into_owned(),
+                value: format!("{value:?} {unit}").trim_end().to_owned(),
+                bounds: bounds.to_string(),
+            }
+        }
+        _ => InstanceError::NotFinite {
+            what: format!("'{}'", entry.name()),
+            value,
+        },
+    }
+}
+
+impl Checked for i32 {
+    fn check<M>(value: &Self, entry: Entry<'_, M>) -> Result<(), InstanceError> {
         match &entry.row.typed {
-            Typed::Real { bounds, .. } if !value.is_finite() && bounds.any_number => Ok(()),
-            _ if !value.is_finite() => Err(InstanceError::NotFinite {
-                what: format!("'{}'", entry.name()),
-                value: *value,
-            }),
-            Typed::Real { bounds, .. } if !bounds.admit(*value) => {
-                let unit = entry.unit().filter(|unit| *unit != "1").unwrap_or_default();
-                Err(InstanceError::OutOfBounds {
-                    name: entry.name().into_owned(),
-                    value: format!("{value:?} {unit}").trim_end().to_owned(),
-                    bounds: bounds.to_string(),
-                })
+            Typed::Integer { bounds, .. } if !bounds.admit(*value) => Err(out_of_bounds(*value, *bounds, entry)),
+            Typed::Enumeration { declared, .. } if declared.item(*value).is_none() => {
+                Err(InstanceError::no_such_item(entry, declared, i64::from(*value)))
             }
             _ => Ok(()),
         }
     }
 }
 
-impl Checked for i32 {
-    fn check<M>(value: &Self, entry: Entry<'_, M>) -> Result<(), InstanceError> {
-        let name = || entry.name().into_owned();
-        match &entry.row.typed {
-            Typed::Integer { bounds, .. } if !bounds.admit(*value) => Err(InstanceError::OutOfBounds {
-                name: name(),
-                value: value.to_string(),
-                bounds: bounds.to_string(),
-            }),
-            Typed::Enumeration { declared, .. } if declared.item(*value).is_none() => {
-                Err(InstanceError::no_such_item(entry, declared, i64::from(*value)))
-            }
-            _ => Ok(()),
-        }
+#[cold]
+fn out_of_bounds<M>(value: i32, bounds: Bounds<i32>, entry: Entry<'_, M>) -> InstanceError {
+    InstanceError::OutOfBounds {
+        name: entry.name().into_owned(),
+        value: value.to_string(),
+        bounds: bounds.to_string(),
     }
 }
 

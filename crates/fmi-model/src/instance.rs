@@ -8,10 +8,11 @@ use std::path::PathBuf;
 use crate::check::{Checked, check_settable, finite};
 use crate::error::InstanceError;
 use crate::log::Log;
+use crate::lookup::Lookup;
 use crate::model::{Experiment, Model};
 use crate::phase::Phase;
 use crate::snapshot::Snapshot;
-use crate::variable::{Access, Entry, Scalar};
+use crate::variable::Scalar;
 
 /// One instance of a model.
 ///
@@ -169,12 +170,13 @@ impl<M: Model> Instance<M> {
         log: &mut Log<'_>,
         mut put: impl FnMut(usize, T),
     ) -> Result<(), InstanceError> {
+        let mut lookup = Lookup::<M, T>::new();
         for number in entries.clone() {
-            entry::<M, T>(number)?;
+            lookup.entry(number)?;
         }
         self.refresh(log)?;
         for (place, number) in entries.enumerate() {
-            let (entry, access) = entry::<M, T>(number)?;
+            let (entry, access) = lookup.entry(number)?;
             put(place, access.read(&self.state.model, entry.element));
         }
         Ok(())
@@ -198,15 +200,16 @@ impl<M: Model> Instance<M> {
         entries: impl Iterator<Item = u32> + Clone,
         value: impl Fn(usize) -> T,
     ) -> Result<(), InstanceError> {
+        let mut lookup = Lookup::<M, T>::new();
         let mut any = false;
         for (place, number) in entries.clone().enumerate() {
-            let (entry, _) = entry::<M, T>(number)?;
+            let (entry, _) = lookup.entry(number)?;
             check_settable(entry, self.state.phase)?;
             T::check(&value(place), entry)?;
             any = true;
         }
         for (place, number) in entries.enumerate() {
-            let (entry, access) = entry::<M, T>(number)?;
+            let (entry, access) = lookup.entry(number)?;
             access.write(&mut self.state.model, entry.element, value(place));
         }
         self.state.stale |= self.state.phase == Phase::Initialization && any;
@@ -253,19 +256,4 @@ impl<M: Model> Instance<M> {
         self.state = state;
         self.locate();
     }
-}
-
-/// The entry of this number and the access to its row, if the type is `T`.
-fn entry<M: Model, T: Scalar>(reference: u32) -> Result<(Entry<'static, M>, &'static Access<M, T>), InstanceError> {
-    let table = M::table();
-    let entry = table.entry(reference).ok_or_else(|| InstanceError::UnknownReference {
-        reference,
-        count: table.entry_count(),
-    })?;
-    let access = T::access(&entry.row.typed).ok_or_else(|| InstanceError::WrongType {
-        name: entry.name().into_owned(),
-        reference,
-        declared: entry.row.typed.name(),
-    })?;
-    Ok((entry, access))
 }

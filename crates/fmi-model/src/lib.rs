@@ -14,6 +14,7 @@ mod guard;
 mod instance;
 mod kind;
 mod log;
+mod lookup;
 mod model;
 mod phase;
 mod snapshot;

@@ -41,7 +41,7 @@ pub struct RunRow {
     pub failure: Option<Failure>,
 }
 
-/// Time taken by the runs of a study.
+/// CPU time taken by the runs of a study, see [`cosim::SlaveTiming`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Timing {
     /// Communication steps over all runs.

@@ -14,7 +14,7 @@ pub struct Outcome {
     pub run: u32,
     /// Communication steps taken.
     pub steps: u64,
-    /// Time the truth took.
+    /// CPU time that the truth took.
     pub truth_time: SlaveTime,
     /// Where the vehicles truly were, thinned; of run 0 alone.
     pub path: Vec<PathPoint>,
@@ -29,7 +29,7 @@ pub struct Part {
     pub row: RunRow,
     /// Of its estimates, in order; none of a run without a result.
     pub records: Vec<Record>,
-    /// Time the filter took.
+    /// CPU time that the filter took.
     pub time: SlaveTime,
 }
 

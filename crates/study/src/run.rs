@@ -39,7 +39,7 @@ pub struct Ending {
     pub calculated: Vec<(String, f64)>,
 }
 
-/// Time one slave took over a run.
+/// CPU time that one slave took over a run, as [`cosim::SlaveTiming`] has it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct SlaveTime {
     /// Inside `fmi2DoStep`.
@@ -55,9 +55,9 @@ pub struct RunReport {
     pub endings: Vec<Ending>,
     /// Communication steps taken.
     pub steps: u64,
-    /// Time the truth took.
+    /// CPU time that the truth took.
     pub truth_time: SlaveTime,
-    /// Time each filter took.
+    /// CPU time that each filter took.
     pub filter_times: Vec<SlaveTime>,
     /// What the FMUs have logged, each message once with its count.
     pub messages: Vec<String>,
@@ -293,7 +293,7 @@ pub fn rehearse(spec: &Spec) -> Result<Vec<String>, StudyError> {
     Ok(told.chain(unsaid).chain(logged).collect())
 }
 
-/// Time of one `fmi2DoStep` of a filter that has no new sample: the cost of crossing the interface, s.
+/// CPU time of one `fmi2DoStep` of a filter that has no new sample: the cost of crossing the interface.
 ///
 /// # Errors
 /// As for a run; a filter that fails alone is an error here.

@@ -43,7 +43,7 @@ pub(super) fn reproduce(args: &ReproduceArgs, out: &mut Out<'_>) -> Result<Verdi
         said = notebook.lines.len();
         write(&folder, notebook, &heading).map(|_| ())
     })?;
-    out.say("\nTime per step of each filter")?;
+    out.say("\nCPU time per step of each filter")?;
     for row in &notebook.timings {
         let cost = number(Some(row.nav_us_per_step));
         out.say(&format!("{cost:>8} us  {}, {}: {}", row.scenario, row.case, row.filter))?;

@@ -1,4 +1,5 @@
-//! `timing.csv`: what a step costs, and how much of it is FMI rather than model.
+//! `timing.csv`: what a step costs in CPU time, and how much of it is FMI rather than model. [`cosim::SlaveTiming`] says which clock
+//! it is by and how it is read.
 
 use std::time::Duration;
 
@@ -11,22 +12,25 @@ pub(crate) const COLUMNS: &[Column<TimingRow>] = &[
     text("scenario", "world", |t| t.scenario.as_str().into()),
     text("filter", "filter with its preset", |t| t.filter.as_str().into()),
     text("case", "case", |t| t.case.as_str().into()),
-    number("nav_us_per_step", "us", "fmi2DoStep of the filter", |t| {
-        Some(t.nav_us_per_step)
-    }),
-    number("truth_us_per_step", "us", "fmi2DoStep of the truth", |t| {
+    number(
+        "nav_us_per_step",
+        "us",
+        "CPU time of the thread in fmi2DoStep of the filter, from one step in 16 (outside Unix: time on the wall)",
+        |t| Some(t.nav_us_per_step),
+    ),
+    number("truth_us_per_step", "us", "the same of the truth", |t| {
         Some(t.truth_us_per_step)
     }),
     number(
         "fmi_exchange_us_per_step",
         "us",
-        "getting and setting of both, including what the study reads for its statistics",
+        "the same in getting and setting of both, including what the study reads for its statistics",
         |t| Some(t.fmi_exchange_us_per_step),
     ),
     number(
         "fmi_call_us",
         "us",
-        "fmi2DoStep of the filter without a new sample",
+        "the same in fmi2DoStep of the filter without a new sample",
         |t| Some(t.fmi_call_us),
     ),
     number(
@@ -35,10 +39,12 @@ pub(crate) const COLUMNS: &[Column<TimingRow>] = &[
         "(exchange + two calls) / (nav + truth + exchange)",
         |t| Some(t.fmi_share),
     ),
-    count("steps", "communication steps measured", |t| Some(t.steps)),
+    count("steps", "communication steps that the times are a mean of", |t| {
+        Some(t.steps)
+    }),
 ];
 
-/// Time per communication step, microseconds.
+/// CPU time per communication step, microseconds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimingRow {
     /// Scenario.
@@ -57,7 +63,7 @@ pub struct TimingRow {
     pub fmi_call_us: f64,
     /// (exchange + two calls) / (nav + truth + exchange).
     pub fmi_share: f64,
-    /// Communication steps measured.
+    /// Communication steps that the times are a mean of.
     pub steps: u64,
 }
 
