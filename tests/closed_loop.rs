@@ -1,6 +1,12 @@
 //! What a loop is closed with, through the FMUs: momentum of commands, and estimates that hold when they are used.
 
-#![allow(clippy::unwrap_used, reason = "what fails in a helper is a failed test")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "what fails in a helper is a failed test"
+)]
+#![allow(clippy::print_stdout, reason = "the tables are shown with --nocapture")]
+#![allow(clippy::float_cmp, reason = "what is handed on is handed on to the bit")]
 
 mod common;
 
@@ -46,7 +52,7 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 /// A pulse of 30 % a second, for ten seconds: whatever its phase and the step, a communication point at each of its edges.
 #[test]
 fn a_modulated_thrust_has_its_momentum() {
-    let truth = Fmu::open(&fmu("fmu-truth")).unwrap();
+    let truth = Fmu::open(fmu("fmu-truth")).unwrap();
     // On a grid of 0.025 s.
     let edge = |time: f64| (time / 0.025).round() as i64;
     println!("velocity gained over that commanded, by world, step [s] and phase [s]");
@@ -89,7 +95,7 @@ fn a_modulated_thrust_has_its_momentum() {
 /// The same sequence of time and value is the same run, bit for bit, and in other steps the same to 1e-9 m.
 #[test]
 fn a_commanded_run_depends_on_its_commands_alone() {
-    let truth = Fmu::open(&fmu("fmu-truth")).unwrap();
+    let truth = Fmu::open(fmu("fmu-truth")).unwrap();
     let outputs = common::fmi::names(&truth, &[Causality::Output]);
     for scenario in SCENARIOS {
         // Commands on a grid of 0.25 s, each with some of the inputs.
@@ -136,10 +142,7 @@ struct Loop {
 
 impl Loop {
     fn new(scenario: &str, filter: &str, jacobi: bool, more: &[(&str, &str)]) -> Self {
-        let (truth, nav) = (
-            Fmu::open(&fmu("fmu-truth")).unwrap(),
-            Fmu::open(&fmu("fmu-nav")).unwrap(),
-        );
+        let (truth, nav) = (Fmu::open(fmu("fmu-truth")).unwrap(), Fmu::open(fmu("fmu-nav")).unwrap());
         let outputs = common::fmi::names(&truth, &[Causality::Output]);
         let wires = common::fmi::names(&nav, &[Causality::Input]);
         let of_the_world = |name: &String| outputs.contains(name) && !name.starts_with("truth.");
@@ -242,7 +245,7 @@ fn an_estimate_is_there_from_the_beginning() {
         ("nrho_venting", "hybrid"),
         ("formation", "snc"),
     ] {
-        let nav = Fmu::open(&fmu("fmu-nav")).unwrap();
+        let nav = Fmu::open(fmu("fmu-nav")).unwrap();
         let mut of = Loop::new(scenario, filter, false, &[("sample_period", "10")]);
         of.nav = nav.instantiate("late", false).unwrap();
         for (name, text) in [("scenario", scenario), ("filter", filter)] {
@@ -293,10 +296,7 @@ fn an_estimate_is_there_from_the_beginning() {
 #[test]
 fn numbers_stand_for_enumerations() {
     let fly = |truth_set: &[(&str, &str)], nav_set: &[(&str, &str)]| {
-        let (truth, nav) = (
-            Fmu::open(&fmu("fmu-truth")).unwrap(),
-            Fmu::open(&fmu("fmu-nav")).unwrap(),
-        );
+        let (truth, nav) = (Fmu::open(fmu("fmu-truth")).unwrap(), Fmu::open(fmu("fmu-nav")).unwrap());
         let outputs = common::fmi::names(&nav, &[Causality::Output]);
         let mut of = Loop::new("leo_venting", "fixed_q", false, &[]);
         (of.truth, of.nav) = (started(&truth, truth_set), started(&nav, nav_set));
@@ -310,7 +310,7 @@ fn numbers_stand_for_enumerations() {
         &[("scenario", "formation")],
         &[("scenario", "formation"), ("filter", "dmc")],
     );
-    let filters = Fmu::open(&fmu("fmu-nav")).unwrap();
+    let filters = Fmu::open(fmu("fmu-nav")).unwrap();
     let items = filters
         .description()
         .variable("filter")
@@ -328,7 +328,7 @@ fn numbers_stand_for_enumerations() {
         ("fmu-nav", "scenario_index"),
         ("fmu-nav", "filter_index"),
     ] {
-        let mut instance = Fmu::open(&fmu(name)).unwrap().instantiate("beyond", true).unwrap();
+        let mut instance = Fmu::open(fmu(name)).unwrap().instantiate("beyond", true).unwrap();
         set(&mut instance, what, &Value::Integer(99)).unwrap();
         instance.setup_experiment(&FROM_ZERO).unwrap();
         let error = instance.enter_initialization().unwrap_err().to_string();
