@@ -8,16 +8,12 @@
 use numerics::math;
 
 use super::axes::Axes;
-use super::hypothesis::{Prior, SIZES};
+use super::prior::{MOST_LOBES, Prior, Priors, SIZES};
 use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Lobes in one set of axes at most.
-const MOST: usize = 3;
-/// Priors of one hypothesis at most: of each size in any direction, and along each lobe.
-const MOST_PRIORS: usize = SIZES * (MOST + 1);
 /// How far single changes scatter about the middle of a lobe, rad.
 const SCATTER: f64 = 0.03;
 /// Directions less well known than this say nothing, rad.
@@ -26,9 +22,6 @@ const LEAST_KNOWN: f64 = 0.5;
 const NEW: f64 = 0.25;
 /// Sizes of a lobe with less than this share of its changes are left to the hypotheses of any direction.
 const LEAST_SHARE: f64 = 0.05;
-
-/// What is expected of a change, in place: hypotheses come and go, and a step asks for no memory.
-pub(super) type Priors = ArrayVec<Prior, MOST_PRIORS>;
 
 /// A change that has been found and watched: what the data say of it, whatever was known of its direction before.
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +45,7 @@ pub(super) struct Directions {
 
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Set {
-    lobes: ArrayVec<Lobe, MOST>,
+    lobes: ArrayVec<Lobe, MOST_LOBES>,
     /// How well it has foretold the directions that came, as a log-likelihood.
     ln_evidence: f64,
 }
@@ -111,7 +104,7 @@ impl Set {
     fn learn(&mut self, along: &Vector3<f64>, variance: f64, weights: &[f64; SIZES]) {
         let all: f64 = self.lobes.iter().map(Lobe::count).sum();
         let total = all + NEW;
-        let mut shares: ArrayVec<f64, MOST> = self
+        let mut shares: ArrayVec<f64, MOST_LOBES> = self
             .lobes
             .iter()
             .map(|lobe| lobe.count() / total * von_mises_fisher(lobe.middle().dot(along), lobe.variance() + variance))
@@ -122,7 +115,7 @@ impl Set {
         self.ln_evidence += weight * math::ln(4.0 * PI * sum);
         shares.iter_mut().for_each(|share| *share /= sum);
         if fresh / sum > 0.5 {
-            if self.lobes.len() < MOST || self.give_way(weight) {
+            if self.lobes.len() < MOST_LOBES || self.give_way(weight) {
                 let mut fresh = Lobe::default();
                 fresh.take(along, variance, 1.0, weights);
                 self.lobes.push(fresh);

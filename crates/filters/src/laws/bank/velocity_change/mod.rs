@@ -8,6 +8,7 @@
 mod axes;
 mod directions;
 mod hypothesis;
+mod prior;
 mod schedule;
 mod watched;
 
@@ -17,9 +18,10 @@ use super::mixture::{Mixture, Moments};
 use crate::units::Units;
 use axes::Axes;
 use directions::Directions;
-use hypothesis::{Hypothesis, NEGLIGIBLE, Part, SIZES};
+use hypothesis::{Hypothesis, NEGLIGIBLE, Part};
 use nalgebra::{Matrix6, Vector6};
 use numerics::{math, spd};
+use prior::SIZES;
 use schedule::Schedule;
 use serde::{Deserialize, Serialize};
 use watched::{Said, Watched, found};
@@ -410,7 +412,8 @@ fn spacing(age: f64) -> f64 {
 mod tests {
     use super::super::centre::white;
     use super::super::rows::{Row, Seen};
-    use super::hypothesis::{Posterior, Prior};
+    use super::hypothesis::Posterior;
+    use super::prior::Prior;
     use super::*;
     use interface::mission::Units as Told;
     use nalgebra::{Matrix3, RowVector6, Vector3};

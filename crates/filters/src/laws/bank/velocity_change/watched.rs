@@ -7,7 +7,8 @@
 use super::super::centre::Shared;
 use super::super::member::Member;
 use super::directions::Found;
-use super::hypothesis::{self, Hypothesis, SIZES};
+use super::hypothesis::{self, Hypothesis};
+use super::prior::SIZES;
 use nalgebra::{Matrix3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
