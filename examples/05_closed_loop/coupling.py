@@ -9,12 +9,15 @@ from fmpy.fmi2 import FMU2Slave
 class Slave:
     """An FMU with its variables by name."""
 
+    library = FMU2Slave
+    values = {"Boolean": lambda text: text == "true", "String": str, "Integer": int, "Real": float}
+
     def __init__(self, path, name):
         self.name = name
         self.description = read_model_description(path)
         self.variables = {v.name: v for v in self.description.modelVariables}
         self.folder = extract(path)
-        self.fmu = FMU2Slave(
+        self.fmu = self.library(
             guid=self.description.guid,
             unzipDirectory=self.folder,
             modelIdentifier=self.description.coSimulation.modelIdentifier,
@@ -36,8 +39,7 @@ class Slave:
             items = [item.name for item in variable.declaredType.items]
             self.set(name, items.index(text) + 1)
         else:
-            kinds = {"Boolean": lambda t: t == "true", "String": str, "Integer": int, "Real": float}
-            self.set(name, kinds[variable.type](text))
+            self.set(name, self.values[variable.type](text))
 
     def get(self, name):
         return self._accessor("get", name)([self.variables[name].valueReference])[0]

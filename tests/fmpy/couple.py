@@ -9,11 +9,15 @@ they read back exactly.
 import argparse
 import csv
 import math
-import shutil
+import sys
+from pathlib import Path
 
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave
+from fmpy import read_model_description
 from fmpy.fmi3 import FMU3Slave
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "examples" / "05_closed_loop"))
+
+from coupling import Loop, Slave  # noqa: E402
 
 SCALARS = ["est.time", "est.count"]
 VECTORS = [
@@ -22,68 +26,11 @@ VECTORS = [
 ]
 
 
-class Slave:
-    """An FMU of FMI 2.0 with its variables by name, each a scalar."""
-
-    kind = FMU2Slave
-    integer = "Integer"
-
-    def __init__(self, path, name):
-        self.description = read_model_description(path)
-        self.variables = {v.name: v for v in self.description.modelVariables}
-        self.folder = extract(path)
-        self.fmu = self.kind(
-            guid=self.description.guid,
-            unzipDirectory=self.folder,
-            modelIdentifier=self.description.coSimulation.modelIdentifier,
-            instanceName=name,
-        )
-        self.fmu.instantiate()
-
-    def _accessor(self, verb, name):
-        kind = self.variables[name].type
-        return getattr(self.fmu, verb + ("Integer" if kind == "Enumeration" else kind))
-
-    def set(self, name, value):
-        self._accessor("set", name)([self.variables[name].valueReference], [value])
-
-    def set_text(self, name, text):
-        """Set a parameter from text: a number, true or false, or the name of an enumeration item."""
-        variable = self.variables[name]
-        if variable.type == "Enumeration":
-            items = [item.name for item in variable.declaredType.items]
-            self.set(name, items.index(text) + 1)
-        elif variable.type == "Boolean":
-            self.set(name, text == "true")
-        elif variable.type == "String":
-            self.set(name, text)
-        elif variable.type == self.integer:
-            self.set(name, int(text))
-        else:
-            self.set(name, float(text))
-
-    def get(self, name):
-        return self._accessor("get", name)([self.variables[name].valueReference])[0]
-
-    def get_vector(self, name):
-        return [self.get(f"{name}[{i}]") for i in (1, 2, 3)]
-
-    def initialise(self):
-        self.fmu.setupExperiment(startTime=0.0)
-        self.fmu.enterInitializationMode()
-        self.fmu.exitInitializationMode()
-
-    def close(self):
-        self.fmu.terminate()
-        self.fmu.freeInstance()
-        shutil.rmtree(self.folder, ignore_errors=True)
-
-
 class Slave3(Slave):
     """An FMU of FMI 3.0 with its variables by name, of which a vector or matrix is one, handed over whole."""
 
-    kind = FMU3Slave
-    integer = "Int32"
+    library = FMU3Slave
+    values = {**Slave.values, "Int32": int, "Float64": float}
 
     def _accessor(self, verb, name):
         kind = self.variables[name].type
@@ -98,10 +45,10 @@ class Slave3(Slave):
         values = self._accessor("get", name)([variable.valueReference], nValues=math.prod(variable.shape))
         return values if variable.shape else values[0]
 
-    def get_vector(self, name):
+    def vector(self, name):
         return self.get(name)
 
-    def initialise(self):
+    def start(self):
         self.fmu.enterInitializationMode(startTime=0.0)
         self.fmu.exitInitializationMode()
 
@@ -142,42 +89,20 @@ def main():
         model, name = target.split(".", 1)
         {"fmu-truth": truth, "fmu-nav": nav}[model].set_text(name, value)
 
-    # Equal names connect: that is the whole wiring rule.
-    wires = [
-        name
-        for name, variable in nav.variables.items()
-        if variable.causality == "input"
-        and name in truth.variables
-        and truth.variables[name].causality == "output"
-    ]
-
-    def hand_over():
-        for name in wires:
-            nav.set(name, truth.get(name))
-
-    for fmu in (truth, nav):
-        fmu.initialise()
-
+    loop = Loop([truth, nav], arguments.scheme)
+    loop.start()
     with open(arguments.out, "w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(SCALARS + [f"{name}[{i}]" for name in VECTORS for i in (1, 2, 3)])
         used = 0
         for k in range(round(arguments.stop / arguments.step)):
-            now = k * arguments.step
-            if arguments.scheme == "jacobi":
-                hand_over()
-                truth.fmu.doStep(now, arguments.step)
-            else:
-                truth.fmu.doStep(now, arguments.step)
-                hand_over()
-            nav.fmu.doStep(now, arguments.step)
+            loop.step(arguments.step, k)
             count = nav.get("est.count")
             if count > used:
                 used = count
-                values = [nav.get(name) for name in SCALARS] + [v for name in VECTORS for v in nav.get_vector(name)]
+                values = [nav.get(name) for name in SCALARS] + [v for name in VECTORS for v in nav.vector(name)]
                 writer.writerow([repr(value) for value in values])
-    truth.close()
-    nav.close()
+    loop.close()
 
 
 if __name__ == "__main__":

@@ -36,7 +36,7 @@ def stepped(path, options, given, columns):
             fmu.set(name, [kind(value) for value in np.atleast_1d(row[name])])
 
     hand_over(given[0])
-    fmu.initialise()
+    fmu.start()
     step = options["StepSize"]
     rows = [(options["StartTime"], *(fmu.get(column) for column in columns))]
     for k in range(round(options["StopTime"] / step)):

@@ -46,7 +46,7 @@ def steps(fmu, first, last):
 def world(truth):
     truth.set("run", 3)
     truth.set("vent.scale", 10.0)
-    truth.initialise()
+    truth.start()
 
 
 def refused(fmu, call, part):
