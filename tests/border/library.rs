@@ -3,6 +3,7 @@
 use std::ffi::CString;
 
 use fmi2_abi::functions as f;
+use fmi2_import::loader::file_uri;
 use fmi2_import::{BaseType, Fmu, LIBRARY_SUFFIX, PLATFORM};
 use tempfile::TempDir;
 
@@ -98,7 +99,7 @@ impl Library {
             name,
             c: Functions::of(&loaded),
             guid: CString::new(about.guid.as_str()).unwrap(),
-            resources: format!("file://{}", folder.path().join("resources").display()),
+            resources: file_uri(&folder.path().join("resources")),
             reals: of_type(&[BaseType::Real]),
             integers: of_type(&[BaseType::Integer, BaseType::Enumeration]),
             booleans: of_type(&[BaseType::Boolean]),

@@ -12,6 +12,7 @@ use crate::ImportError;
 use crate::archive::Archive;
 use crate::description::CoSimulation;
 use crate::guard::{self, BeforeLoading, Watch};
+use crate::loader::{file_uri, loader_text, open};
 use crate::logger::text;
 use crate::platform::{LIBRARY_SUFFIX, PLATFORM};
 
@@ -200,33 +201,6 @@ fn has(_library: &str, _symbol: &str) -> bool {
     false
 }
 
-/// Loads a library with all its symbols resolved at once: a missing one is an error here rather than an abort later.
-///
-/// # Safety
-/// As [`Library::new`].
-#[cfg(unix)]
-unsafe fn open(file: &Path) -> Result<Library, libloading::Error> {
-    use libloading::os::unix::{Library as Unix, RTLD_LOCAL, RTLD_NOW};
-    // SAFETY: passed on to the caller.
-    unsafe { Unix::open(Some(file), RTLD_NOW | RTLD_LOCAL) }.map(Library::from)
-}
-
-/// Loads a library whose own dependencies may lie beside it.
-///
-/// # Safety
-/// As [`Library::new`].
-#[cfg(windows)]
-unsafe fn open(file: &Path) -> Result<Library, libloading::Error> {
-    use libloading::os::windows::{LOAD_WITH_ALTERED_SEARCH_PATH, Library as Windows};
-    // SAFETY: passed on to the caller.
-    unsafe { Windows::load_with_flags(file, LOAD_WITH_ALTERED_SEARCH_PATH) }.map(Library::from)
-}
-
-/// The loader's own words, which `libloading` keeps in the source of its error.
-fn loader_text(error: &libloading::Error) -> String {
-    std::error::Error::source(error).map_or_else(|| error.to_string(), ToString::to_string)
-}
-
 /// Look-up in one library, with what messages need to say.
 struct Symbols<'a> {
     loaded: &'a Library,
@@ -307,20 +281,6 @@ impl Symbols<'_> {
     }
 }
 
-/// `path`, which must be absolute, as a `file:` URI.
-fn file_uri(path: &Path) -> String {
-    let text = path.to_string_lossy().replace('\\', "/");
-    let mut uri = String::from(if text.starts_with('/') { "file://" } else { "file:///" });
-    for byte in text.bytes() {
-        if byte.is_ascii_alphanumeric() || b"/-._~:".contains(&byte) {
-            uri.push(char::from(byte));
-        } else {
-            uri.push_str(&format!("%{byte:02X}"));
-        }
-    }
-    uri
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -335,10 +295,5 @@ mod tests {
         ] {
             assert_eq!(undefined_symbol(complaint), symbol);
         }
-    }
-
-    #[test]
-    fn file_uris_escape_what_uris_cannot_hold() {
-        assert_eq!(file_uri(Path::new("/tmp/a b/ü%")), "file:///tmp/a%20b/%C3%BC%25");
     }
 }

@@ -20,7 +20,7 @@ use crate::rules::binary as rules;
 #[derive(Debug)]
 pub(super) struct Bench<'a> {
     pub(super) job: &'a Job,
-    pub(super) library: &'a Library,
+    pub(super) loaded: &'a Library,
     pub(super) journal: &'a Journal,
     /// What has to stay, while it does.
     pub(super) surroundings: RefCell<Surroundings>,
@@ -105,7 +105,7 @@ impl<'a> Instance<'a> {
         let sink = Box::new(Sink::default());
         let callbacks = Box::new(sink.callbacks(manner.offered));
         let (name, guid) = (CString::new(name).ok()?, CString::new(manner.guid).ok()?);
-        let instantiate = bench.library.functions.instantiate?;
+        let instantiate = bench.loaded.functions.instantiate?;
         bench.journal.calling("fmi2Instantiate");
         // SAFETY: strings end in NUL, and name and callbacks outlive the instance, which owns them.
         let component = unsafe {
@@ -113,7 +113,7 @@ impl<'a> Instance<'a> {
                 name.as_ptr(),
                 Fmi2Type::CoSimulation.raw(),
                 guid.as_ptr(),
-                bench.library.resources.as_ptr(),
+                bench.loaded.resources.as_ptr(),
                 &raw const *callbacks,
                 boolean(false),
                 boolean(manner.logging),
@@ -138,7 +138,7 @@ impl<'a> Instance<'a> {
         choose: impl FnOnce(&Functions) -> Option<F>,
         make: impl FnOnce(F, Fmi2Component) -> RawStatus,
     ) -> Ended {
-        let Some(function) = choose(&self.bench.library.functions).filter(|_| !self.fatal.get()) else {
+        let Some(function) = choose(&self.bench.loaded.functions).filter(|_| !self.fatal.get()) else {
             return Ended::Unclear;
         };
         self.bench.journal.calling(name);
@@ -427,7 +427,7 @@ impl<'a> Instance<'a> {
 
 impl Drop for Instance<'_> {
     fn drop(&mut self) {
-        if let Some(free) = self.bench.library.functions.free_instance.filter(|_| !self.fatal.get()) {
+        if let Some(free) = self.bench.loaded.functions.free_instance.filter(|_| !self.fatal.get()) {
             self.bench.journal.calling("fmi2FreeInstance");
             // SAFETY: the instance lives, and is not used again.
             unsafe { free(self.component) };

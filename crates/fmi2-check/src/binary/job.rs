@@ -15,7 +15,8 @@ const STEPS: u32 = 10;
 /// Everything about the FMU.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Job {
-    pub(super) library: PathBuf,
+    /// The library.
+    pub(super) file: PathBuf,
     /// The folder of resources.
     pub(super) resources: PathBuf,
     /// Where a trial keeps what the next one reads.
@@ -78,7 +79,7 @@ impl Job {
         let steps = fitting.clamp(1.0, f64::from(STEPS)) as u32;
         let categories = view.root.inside("LogCategories", "Category");
         Self {
-            library: PathBuf::new(),
+            file: PathBuf::new(),
             resources: PathBuf::new(),
             folder: PathBuf::new(),
             limit: 0.0,

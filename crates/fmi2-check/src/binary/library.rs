@@ -4,6 +4,7 @@ use std::ffi::CString;
 use std::path::Path;
 
 use fmi2_abi::functions as f;
+use fmi2_import::loader;
 use libloading::Library as Loaded;
 
 use super::logger::text;
@@ -70,13 +71,11 @@ impl Library {
     /// * returns: the loader's own words where it cannot be loaded.
     pub(super) fn load(file: &Path, resources: &Path) -> Result<Self, String> {
         // SAFETY: loading runs initializers of a library that the user asked for, in a process that is made to die of it.
-        let loaded = unsafe { open(file) }.map_err(|error| {
-            std::error::Error::source(&error).map_or_else(|| error.to_string(), ToString::to_string)
-        })?;
+        let loaded = unsafe { loader::open(file) }.map_err(|error| loader::loader_text(&error))?;
         // SAFETY: the archive is said to be an FMU 2.0; what is not is found by dying.
         let functions = unsafe { Functions::of(&loaded) };
         std::mem::forget(loaded);
-        let resources = CString::new(uri(resources)).map_err(|error| error.to_string())?;
+        let resources = CString::new(loader::file_uri(resources)).map_err(|error| error.to_string())?;
         Ok(Self { functions, resources })
     }
 
@@ -85,32 +84,4 @@ impl Library {
         // SAFETY: inquiries have no preconditions, and answer with a string that stays.
         inquiry.map(|inquiry| unsafe { text(inquiry()) })
     }
-}
-
-#[cfg(unix)]
-unsafe fn open(file: &Path) -> Result<Loaded, libloading::Error> {
-    use libloading::os::unix::{Library as Unix, RTLD_LOCAL, RTLD_NOW};
-    // SAFETY: passed on to the caller.
-    unsafe { Unix::open(Some(file), RTLD_NOW | RTLD_LOCAL) }.map(Loaded::from)
-}
-
-#[cfg(windows)]
-unsafe fn open(file: &Path) -> Result<Loaded, libloading::Error> {
-    use libloading::os::windows::{LOAD_WITH_ALTERED_SEARCH_PATH, Library as Windows};
-    // SAFETY: passed on to the caller.
-    unsafe { Windows::load_with_flags(file, LOAD_WITH_ALTERED_SEARCH_PATH) }.map(Loaded::from)
-}
-
-/// An absolute path as a URI.
-fn uri(path: &Path) -> String {
-    let text = path.to_string_lossy().replace('\\', "/");
-    let mut uri = String::from(if text.starts_with('/') { "file://" } else { "file:///" });
-    for byte in text.bytes() {
-        if byte.is_ascii_alphanumeric() || b"/-._~:".contains(&byte) {
-            uri.push(char::from(byte));
-        } else {
-            uri.push_str(&format!("%{byte:02X}"));
-        }
-    }
-    uri
 }

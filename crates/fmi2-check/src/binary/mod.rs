@@ -76,7 +76,7 @@ pub(crate) fn check(
         return Ok(());
     }
     let mut job = Job::new(view, interface);
-    job.library = unpacked.join(&entry);
+    job.file = unpacked.join(&entry);
     job.resources = unpacked.join("resources");
     job.folder = folder.path().to_owned();
     job.limit = running.limit.as_secs_f64();
@@ -182,12 +182,12 @@ pub fn serve(job: &Path, trial: &str) -> Result<(), CheckError> {
         std::process::abort();
     });
     let surroundings = Surroundings::now();
-    let library = match library::Library::load(&told.library, &told.resources) {
-        Ok(library) => library,
+    let loaded = match library::Library::load(&told.file, &told.resources) {
+        Ok(loaded) => loaded,
         Err(reason) => {
-            let element = told.library.file_name().unwrap_or_default().to_string_lossy();
+            let element = told.file.file_name().unwrap_or_default().to_string_lossy();
             // Folders of the trial say nothing.
-            let reason = reason.replace(&format!("{}: ", told.library.display()), "");
+            let reason = reason.replace(&format!("{}: ", told.file.display()), "");
             journal.found(&rules::LOAD, &element, reason);
             journal.over(false);
             return Ok(());
@@ -195,7 +195,7 @@ pub fn serve(job: &Path, trial: &str) -> Result<(), CheckError> {
     };
     let bench = Bench {
         job: &told,
-        library: &library,
+        loaded: &loaded,
         journal: &journal,
         surroundings: RefCell::new(surroundings),
         output: &output,

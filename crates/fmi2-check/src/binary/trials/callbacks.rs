@@ -76,7 +76,7 @@ pub(super) fn memory_null(bench: &Bench<'_>) -> Result<(), Failed> {
 }
 
 pub(super) fn free_null(bench: &Bench<'_>) -> Result<(), Failed> {
-    let free = bench.library.functions.free_instance.ok_or(Failed)?;
+    let free = bench.loaded.functions.free_instance.ok_or(Failed)?;
     bench.journal.calling("fmi2FreeInstance");
     // SAFETY: the standard says that NULL is ignored; what does not is found by dying.
     unsafe { free(ptr::null_mut()) };

@@ -8,7 +8,7 @@ use crate::role::{Causality, Initial, Kind, Variability};
 use crate::rules::binary as rules;
 
 pub(super) fn life(bench: &Bench<'_>) -> Result<(), Failed> {
-    let functions = &bench.library.functions;
+    let functions = &bench.loaded.functions;
     for (function, inquiry, expected, rule) in [
         ("fmi2GetVersion", functions.get_version, "2.0", &rules::VERSION),
         (
