@@ -307,31 +307,21 @@ fn input_row(t: &mut Builder, port: &'static Port, slot: Slot) {
 /// An input that says what the chaser is commanded to do.
 fn command_row(t: &mut Builder, port: &'static Port) {
     let about = port.about(0);
-    match port.name {
-        "impulse_count" => t
-            .integer(port.name)
-            .input()
-            .about(about)
-            .rw(|m| m.command.impulse_count, |m, v| m.command.impulse_count = v),
+    let place: fn(&mut Command) -> &mut nalgebra::Vector3<f64> = match port.name {
+        "a_cmd_c_n" => |command| &mut command.a_cmd_c_n,
+        "impulse_c_n" => |command| &mut command.impulse_c_n,
         name => {
-            let of_push = name == "a_cmd_c_n";
-            let row = t.real(name).input().unit(port.unit(0)).about(about);
-            row.vector_rw(
-                port.shape.len(),
-                move |m, i| command_part(&mut m.command.clone(), of_push)[i],
-                move |m, i, v| command_part(&mut m.command, of_push)[i] = v,
-            );
+            let row = t.integer(name).input().about(about);
+            row.rw(|m| m.command.impulse_count, |m, v| m.command.impulse_count = v);
+            return;
         }
-    }
-}
-
-/// The acceleration or the impulse of a command.
-fn command_part(command: &mut Command, of_push: bool) -> &mut nalgebra::Vector3<f64> {
-    if of_push {
-        &mut command.a_cmd_c_n
-    } else {
-        &mut command.impulse_c_n
-    }
+    };
+    let row = t.real(port.name).input().unit(port.unit(0)).about(about);
+    row.vector_rw(
+        port.shape.len(),
+        move |m, i| place(&mut m.command.clone())[i],
+        move |m, i, v| place(&mut m.command)[i] = v,
+    );
 }
 
 /// How a port of the estimate is read from a running filter; elements count from 0, matrices go row by row.

@@ -4,9 +4,13 @@ use astro::{LvlhAxes, TargetOrbit};
 use interface::signals::Seen;
 use interface::{Sensor, Signals};
 use nalgebra::{Matrix3, Vector3, Vector6};
+use numerics::rotation;
 use sensors::Rows;
 use serde::{Deserialize, Serialize};
 use std::ops::{Index, IndexMut};
+
+/// How far the rows of an attitude may be from orthonormal: what single precision leaves.
+pub(crate) const NOT_A_ROTATION: f64 = 1e-6;
 
 /// What a sensor of the target reports at one epoch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -157,7 +161,7 @@ impl From<&Signals> for Sample {
                 argument_of_latitude,
                 node,
             },
-            target_axes: is_rotation(&dcm_lvlh_n).then_some(LvlhAxes { dcm_lvlh_n, omega }),
+            target_axes: (rotation::defect(&dcm_lvlh_n) < NOT_A_ROTATION).then_some(LvlhAxes { dcm_lvlh_n, omega }),
             accelerometer: s.accelerometer_valid.then_some(if s.accelerometer_mean {
                 SpecificForce::Mean(alpha)
             } else {
@@ -170,9 +174,4 @@ impl From<&Signals> for Sample {
             }),
         }
     }
-}
-
-/// Whether a matrix turns axes into axes.
-fn is_rotation(dcm: &Matrix3<f64>) -> bool {
-    (dcm * dcm.transpose() - Matrix3::identity()).amax() < 1e-6
 }

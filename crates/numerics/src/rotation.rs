@@ -4,6 +4,11 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, UnitVector3, Vector3};
 
 use crate::math;
 
+/// How far the rows of a matrix are from orthonormal: the largest element of D D' - 1.
+pub fn defect(dcm: &Matrix3<f64>) -> f64 {
+    (dcm * dcm.transpose() - Matrix3::identity()).amax()
+}
+
 /// Rotation by an angle about an axis.
 ///
 /// * `angle`: rad, right-handed.

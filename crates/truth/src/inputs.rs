@@ -1,6 +1,7 @@
 //! What another model does to the world through its inputs.
 
 use nalgebra::{Matrix3, Vector3};
+use numerics::rotation;
 use serde::{Deserialize, Serialize};
 
 use crate::{Push, TruthError};
@@ -71,7 +72,7 @@ impl Inputs {
         }
         let attitude = &self.dcm_cmd_bc_n;
         if *attitude != Matrix3::zeros() {
-            let defect = (attitude * attitude.transpose() - Matrix3::identity()).amax();
+            let defect = rotation::defect(attitude);
             if defect.is_nan() || defect > NOT_A_ROTATION || attitude.determinant() < 0.0 {
                 return Err(TruthError::NotARotation { defect, t });
             }

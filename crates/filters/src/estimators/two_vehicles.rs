@@ -13,7 +13,7 @@ use crate::gravity::Gravity;
 use crate::innovation::Innovation;
 use crate::laws::{Adaptation, Step};
 use crate::layout::Layout;
-use crate::sample::Sample;
+use crate::sample::{NOT_A_ROTATION, Sample};
 use crate::state::{MAX_ROWS, N, RowVector, State, StateMatrix, TargetMatrix, idx};
 use crate::units::Units;
 use crate::update::kalman::{self, Gaussian, Measurement, NotSpd};
@@ -21,7 +21,8 @@ use astro::relative_axes::{AxesN, Reference};
 use astro::{AstroError, Cr3bpSystem, frames};
 use interface::mission::InitialSigma;
 use interface::{Navigation, Sensor};
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3, Vector6};
+use nalgebra::{SMatrix, SVector, Vector3, Vector6};
+use numerics::rotation;
 use sensors::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -359,8 +360,8 @@ const _: () = assert!(MOST <= 24);
 
 impl Estimator for InertialState {
     fn check(&self, sample: &Sample) -> Result<(), FilterError> {
-        let defect = (sample.dcm_bc_n * sample.dcm_bc_n.transpose() - Matrix3::identity()).amax();
-        if defect.is_nan() || defect > 1e-6 {
+        let defect = rotation::defect(&sample.dcm_bc_n);
+        if defect.is_nan() || defect > NOT_A_ROTATION {
             let t_s = sample.time;
             return Err(FilterError::NotARotation { t_s, defect });
         }
