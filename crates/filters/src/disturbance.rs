@@ -13,12 +13,15 @@ pub struct Disturbance {
 }
 
 impl Disturbance {
-    /// Acts over `dt` on the velocity of a state that begins with relative position and velocity: x gains dt G d and F gains
-    /// dt G dd/dx (Pesce, Silvestrini and Lavagna, Eqs. 21, 22 and 26).
-    pub fn act<const D: usize>(&self, x: &mut SVector<f64, D>, f: &mut SMatrix<f64, D, D>, dt: f64) {
+    /// Acts over `dt` on the velocity of a state that begins with relative position and velocity: x gains dt G d (Pesce,
+    /// Silvestrini and Lavagna, Eqs. 21 and 22).
+    pub fn act<const D: usize>(&self, x: &mut SVector<f64, D>, dt: f64) {
         let mut velocity = x.fixed_rows_mut::<3>(3);
         velocity += self.d * dt;
-        let mut rows = f.fixed_view_mut::<3, 6>(3, 0);
-        rows += self.by_x * dt;
+    }
+
+    /// What the rows of velocity of F gain meanwhile, dt dd/dx, 3x6 (Eq. 26).
+    pub fn by_x_over(&self, dt: f64) -> SMatrix<f64, 3, 6> {
+        self.by_x * dt
     }
 }

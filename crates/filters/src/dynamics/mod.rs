@@ -1,6 +1,6 @@
 //! How what is estimated moves between samples: one file each.
 //!
-//! * [`two_vehicles`]: both vehicles in axes N under gravity, 18 states.
+//! * [`two_vehicles`]: both vehicles in axes N under gravity, 18 states; [`transition`], how their errors move, by parts.
 //! * [`relative`]: what dynamics of the relative state in the target's LVLH frame offer, nine states;
 //!   [`clohessy_wiltshire`] and [`j2`] offer it.
 
@@ -8,6 +8,7 @@ pub mod acceleration;
 pub mod clohessy_wiltshire;
 pub mod j2;
 pub mod relative;
+pub mod transition;
 pub mod two_vehicles;
 
 pub use acceleration::AccelerationModel;

@@ -1,12 +1,13 @@
 //! Both vehicles in axes N under gravity, with an accelerometer in the chaser: 18 states (Mamich and Zanetti).
 
+use super::transition::{Flow, Transition};
 use crate::disturbance::Disturbance;
 use crate::gravity::Gravity;
 use crate::state::{State, StateMatrix, TargetMatrix, idx};
 use crate::update::kalman::Gaussian;
 use interface::mission::InitialSigma;
 use nalgebra::{Matrix3, Vector3};
-use numerics::{expm, rk4, spd};
+use numerics::rk4;
 use serde::{Deserialize, Serialize};
 
 /// The force model of the filter, internal units.
@@ -93,41 +94,23 @@ impl TwoVehicles {
         out
     }
 
-    /// Transition matrix exp(A dt) with A of Eq. (5) at `x`, 18x18.
-    ///
-    /// Each vehicle's 9x9 block is exponentiated by itself and the two are then combined: with r_t = r_tc + r_c the
-    /// relative states inherit the difference of the blocks, which is what A_t/c of Eq. (5) expresses.
-    pub fn transition(&self, x: &State, dt: f64, thrust: Option<&Thrust>) -> StateMatrix {
+    /// Transition exp(A dt) with A of Eq. (5) at `x`.
+    pub fn transition(&self, x: &State, dt: f64, thrust: Option<&Thrust>) -> Transition {
         let r_c = part(x, idx::R_C);
-        let r_t = part(x, idx::R_TC) + r_c;
-        let vehicle = |r: &Vector3<f64>, third_on_v: Matrix3<f64>, third_decay: f64| {
+        let flow = |r: &Vector3<f64>, third_decay: f64| {
             let (by_r, by_v) = self.gravity.partials(r);
-            let mut a = TargetMatrix::zeros();
-            a.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
-            a.fixed_view_mut::<3, 3>(3, 0).copy_from(&by_r);
-            a.fixed_view_mut::<3, 3>(3, 3).copy_from(&by_v);
-            a.fixed_view_mut::<3, 3>(3, 6).copy_from(&third_on_v);
-            a.fixed_view_mut::<3, 3>(6, 6).fill_diagonal(-third_decay);
-            expm(&(a * dt))
+            Flow::new(&by_r, &by_v, third_decay, dt)
         };
-        let target = vehicle(&r_t, Matrix3::identity(), self.acceleration_decay);
-        let drive = thrust.map_or_else(Matrix3::zeros, |t| -t.dcm_n_bc);
-        let chaser = vehicle(&r_c, drive, self.beta);
-        let mut f = StateMatrix::zeros();
-        f.fixed_view_mut::<9, 9>(0, 0).copy_from(&target);
-        f.fixed_view_mut::<9, 9>(9, 9).copy_from(&chaser);
-        f.fixed_view_mut::<9, 6>(0, 9)
-            .copy_from(&target.fixed_view::<9, 6>(0, 0));
-        let mut relative = f.fixed_view_mut::<6, 9>(0, 9);
-        relative -= chaser.fixed_view::<6, 9>(0, 0);
-        f
+        let target = flow(&(part(x, idx::R_TC) + r_c), self.acceleration_decay);
+        let chaser = flow(&r_c, self.beta);
+        Transition::new(&target, &chaser, thrust.map(|t| -t.dcm_n_bc).as_ref(), dt)
     }
 
-    /// Process noise over `dt`, 18x18: the law's for the target, white acceleration for the chaser (entering r_tc and
-    /// v_tc with opposite sign when coupled), a random walk for the bias.
-    pub fn process_noise(&self, q_target: &TargetMatrix, dt: f64) -> StateMatrix {
-        let mut q = StateMatrix::zeros();
-        q.fixed_view_mut::<9, 9>(0, 0).copy_from(q_target);
+    /// Adds the process noise of `dt` to a covariance, 18x18: the law's for the target, white acceleration for the chaser (entering
+    /// r_tc and v_tc with opposite sign when coupled), a random walk for the bias.
+    pub fn add_process_noise(&self, p: &mut StateMatrix, q_target: &TargetMatrix, dt: f64) {
+        let mut target = p.fixed_view_mut::<9, 9>(0, 0);
+        target += q_target;
         let white = [[dt.powi(3) / 3.0, dt.powi(2) / 2.0], [dt.powi(2) / 2.0, dt]];
         for (i, row) in white.iter().enumerate() {
             for (j, w) in row.iter().enumerate() {
@@ -135,25 +118,24 @@ impl TwoVehicles {
                 for axis in 0..3 {
                     let (ti, tj) = (3 * i + axis, 3 * j + axis);
                     let (ci, cj) = (9 + ti, 9 + tj);
-                    q[(ci, cj)] += w;
+                    p[(ci, cj)] += w;
                     if self.q_coupled {
-                        q[(ti, tj)] += w;
-                        q[(ti, cj)] -= w;
-                        q[(cj, ti)] -= w;
+                        p[(ti, tj)] += w;
+                        p[(ti, cj)] -= w;
+                        p[(cj, ti)] -= w;
                     }
                 }
             }
         }
         for axis in idx::B_C {
-            q[(axis, axis)] += self.q_bias * dt;
+            p[(axis, axis)] += self.q_bias * dt;
         }
-        q
     }
 
     /// Time update, Eq. (3): mean by Runge-Kutta, covariance F P F^T + Q.
     ///
     /// * `learnt`: what a law adds to the target's acceleration over the step.
-    /// * returns: the transition matrix used, 18x18.
+    /// * returns: transition of the target's nine states, 9x9.
     pub fn predict(
         &self,
         est: &mut Gaussian,
@@ -161,33 +143,17 @@ impl TwoVehicles {
         drive: &Drive,
         learnt: Option<&Disturbance>,
         q_target: &TargetMatrix,
-    ) -> StateMatrix {
+    ) -> TargetMatrix {
         let mut f = self.transition(&est.x, dt, drive.thrust.as_ref());
         est.x = self.propagate_mean(&est.x, dt, drive);
         if let Some(learnt) = learnt {
-            learnt.act(&mut est.x, &mut f, dt);
+            learnt.act(&mut est.x, dt);
+            f.add_to_velocity(&learnt.by_x_over(dt));
         }
-        est.p = spd::symmetrised(&carried(&f, &est.p)) + self.process_noise(q_target, dt);
-        f
+        est.p = f.carried(&est.p);
+        self.add_process_noise(&mut est.p, q_target, dt);
+        f.of_target()
     }
-}
-
-/// F P F^T for F = [T D; 0 C] in 9x9 blocks, as [`TwoVehicles::transition`] makes it: nothing of the chaser's comes from the
-/// target, and of the two off-diagonal blocks of a covariance one is enough.
-fn carried(f: &StateMatrix, p: &StateMatrix) -> StateMatrix {
-    let block = |m: &StateMatrix, i: usize, j: usize| m.fixed_view::<9, 9>(9 * i, 9 * j).into_owned();
-    let (t, d, c) = (block(f, 0, 0), block(f, 0, 1), block(f, 1, 1));
-    let (p_tc, p_cc) = (block(p, 0, 1), block(p, 1, 1));
-    let on_target = t * block(p, 0, 0) + d * p_tc.transpose();
-    let on_chaser = t * p_tc + d * p_cc;
-    let cross = on_chaser * c.transpose();
-    let mut out = StateMatrix::zeros();
-    out.fixed_view_mut::<9, 9>(0, 0)
-        .copy_from(&(on_target * t.transpose() + on_chaser * d.transpose()));
-    out.fixed_view_mut::<9, 9>(0, 9).copy_from(&cross);
-    out.fixed_view_mut::<9, 9>(9, 0).copy_from(&cross.transpose());
-    out.fixed_view_mut::<9, 9>(9, 9).copy_from(&(c * p_cc * c.transpose()));
-    out
 }
 
 /// Initial covariance, 18x18, internal units (Mamich and Zanetti, Eqs. 35 and 37).
@@ -250,7 +216,7 @@ mod tests {
     fn transition_agrees_with_differences_of_the_flow() {
         let (dynamics, x) = leo();
         for drive in [None, Some(thrust())] {
-            let f = dynamics.transition(&x, 1.0, drive.as_ref());
+            let f = dynamics.transition(&x, 1.0, drive.as_ref()).dense();
             for j in 0..N {
                 // Positions carry a rounding of 1e-9 m, so steps are large; the flow is linear over them to far below the bound.
                 let step = [100.0, 10.0, 10.0][(j / 3) % 3];
@@ -292,7 +258,8 @@ mod tests {
     fn coupled_noise_of_the_chaser_leaves_the_target_alone() {
         let (mut dynamics, _) = leo();
         let dt = 0.7;
-        let q = dynamics.process_noise(&TargetMatrix::zeros(), dt);
+        let mut q = StateMatrix::zeros();
+        dynamics.add_process_noise(&mut q, &TargetMatrix::zeros(), dt);
         // r_t = r_tc + r_c and v_t likewise carry no noise when the coupling is right.
         let mut to_target = SMatrix::<f64, 6, N>::zeros();
         to_target.fixed_view_mut::<6, 6>(0, 0).fill_with_identity();
@@ -300,7 +267,8 @@ mod tests {
         assert!((to_target * q * to_target.transpose()).amax() < 1e-25);
         assert!((q[(12, 12)] - dynamics.q_c * dt).abs() < 1e-25 && q[(3, 3)] == q[(12, 12)]);
         dynamics.q_coupled = false;
-        let block = dynamics.process_noise(&TargetMatrix::zeros(), dt);
+        let mut block = StateMatrix::zeros();
+        dynamics.add_process_noise(&mut block, &TargetMatrix::zeros(), dt);
         assert_eq!(block.fixed_view::<9, 18>(0, 0).amax(), 0.0);
         assert_eq!(block[(9, 12)], q[(9, 12)]);
     }

@@ -171,7 +171,9 @@ impl Estimator for LvlhState {
                 rho_dot += a * dt;
             }
             if let Some(learnt) = law.disturbance() {
-                learnt.act(&mut core.x, &mut f, dt);
+                learnt.act(&mut core.x, dt);
+                let mut rows = f.fixed_view_mut::<3, 6>(3, 0);
+                rows += learnt.by_x_over(dt);
             }
             if self.gain.is_none() {
                 core.p = spd::symmetrised(&(f * core.p * f.transpose())) + law.process_noise(dt);

@@ -400,8 +400,10 @@ impl Estimator for InertialState {
         law: &dyn Adaptation,
         commands: &Commands,
     ) -> Result<TargetMatrix, FilterError> {
-        let mut total = TargetMatrix::identity();
-        let Some(core) = &mut self.core else { return Ok(total) };
+        let Some(core) = &mut self.core else {
+            return Ok(TargetMatrix::identity());
+        };
+        let mut total: Option<TargetMatrix> = None;
         // A reading may hold a command that has ended: where samples come a step late, its end is the newest thing known.
         let felt = self.accelerometer.as_ref().is_some_and(Accelerometer::has_felt_command);
         let commands = Some(commands).filter(|told| felt || !told.is_silent());
@@ -451,7 +453,7 @@ impl Estimator for InertialState {
             let f = self
                 .dynamics
                 .predict(core, dt, &drive, law.disturbance(), &law.process_noise(dt));
-            total = f.fixed_view::<9, 9>(0, 0) * total;
+            total = Some(total.map_or(f, |before| f * before));
             t += length;
         }
         if let Some(unknown) = &driven.blur {
@@ -461,7 +463,7 @@ impl Estimator for InertialState {
             accelerometer.credit(&credited_n);
             accelerometer.remember(sample, mean_since.unwrap_or(gap.start_s), told);
         }
-        Ok(total)
+        Ok(total.unwrap_or_else(TargetMatrix::identity))
     }
 
     fn update(&mut self, sample: &Sample, step: &mut Step) -> Result<Option<Innovation>, FilterError> {

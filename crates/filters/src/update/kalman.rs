@@ -85,19 +85,58 @@ pub fn update<const M: usize, const D: usize>(
     m: &Measurement<M, D>,
     consider: Range<usize>,
 ) -> Result<Innovated<M>, NotSpd> {
-    let hp = m.h * est.p;
-    let s = spd::symmetrised(&(hp * m.h.transpose())) + SMatrix::<f64, M, M>::from_diagonal(&m.r);
+    let u = by_rows(&m.h, &est.p);
+    let mut s = SMatrix::<f64, M, M>::zeros();
+    for i in 0..M {
+        for k in (0..D).filter(|k| m.h[(i, *k)] != 0.0) {
+            for j in 0..=i {
+                s[(i, j)] += m.h[(i, k)] * u.data.0[j][k];
+            }
+        }
+        s[(i, i)] += m.r[i];
+    }
+    s.fill_upper_triangle_with_lower_triangle();
     let factor = s.cholesky().ok_or(NotSpd {
         min_diagonal: s.diagonal().min(),
     })?;
-    let mut k = spd::over(&hp.transpose(), factor.l_dirty());
+    let mut k = spd::over(&u, factor.l_dirty());
     k.rows_range_mut(consider).fill(0.0);
     est.x += k * m.innovation;
-    // (I - K H) P (I - K H)^T + K R K^T as L - (L H^T - K R) K^T with L = (I - K H) P: no full 18^3 product.
-    let left = est.p - k * hp;
-    let k_r = SMatrix::<f64, D, M>::from_fn(|i, j| k[(i, j)] * m.r[j]);
-    est.p = spd::symmetrised(&(left - (left * m.h.transpose() - k_r) * k.transpose()));
+    // (I - K H) P (I - K H)^T + K R K^T as P - K U^T - (U - K S) K^T, with U = P H^T: no product of D^3. What stands in brackets
+    // is zero but for rounding, and but for the consider states.
+    let rest = u - k * s;
+    take(&mut est.p, &k, &u);
+    take(&mut est.p, &rest, &k);
+    est.p.fill_upper_triangle_with_lower_triangle();
     Ok(Innovated { s, factor })
+}
+
+/// P H^T, D x M, from the entries of H that are not zero: three of a range, eighteen at most.
+fn by_rows<const M: usize, const D: usize>(h: &SMatrix<f64, M, D>, p: &SMatrix<f64, D, D>) -> SMatrix<f64, D, M> {
+    let mut u = SMatrix::<f64, D, M>::zeros();
+    for (row, column) in u.data.0.iter_mut().enumerate() {
+        for (state, from) in p.data.0.iter().enumerate() {
+            let by = h[(row, state)];
+            if by != 0.0 {
+                for (sum, value) in column.iter_mut().zip(from) {
+                    *sum += by * value;
+                }
+            }
+        }
+    }
+    u
+}
+
+/// Takes A B^T away from P, D x D; whole columns, of which only what is below the diagonal means something.
+fn take<const M: usize, const D: usize>(p: &mut SMatrix<f64, D, D>, a: &SMatrix<f64, D, M>, b: &SMatrix<f64, D, M>) {
+    for (j, column) in p.data.0.iter_mut().enumerate() {
+        for (from, by) in a.data.0.iter().zip(&b.data.0) {
+            let by = by[j];
+            for (value, from) in column.iter_mut().zip(from) {
+                *value -= from * by;
+            }
+        }
+    }
 }
 
 #[cfg(test)]

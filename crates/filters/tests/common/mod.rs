@@ -5,7 +5,7 @@
 #![allow(dead_code, reason = "each binary uses its own part")]
 
 use filters::dynamics::{Drive, Thrust, TwoVehicles, initial_covariance};
-use filters::state::State;
+use filters::state::{State, StateMatrix};
 use filters::{Gravity, Reading, Sample, SpecificForce, Untold, jerk};
 use interface::Sensor;
 use interface::mission::InitialSigma;
@@ -106,9 +106,9 @@ impl OwnWorld {
             dcm_n_bc: before.transpose(),
         };
         self.x = self.dynamics.propagate_mean(&self.x, 1.0, &Drive::from(thrust));
-        let q = self
-            .dynamics
-            .process_noise(&jerk::process_noise(&Vector3::repeat(self.s * self.s), 1.0), 1.0);
+        let mut q = StateMatrix::zeros();
+        let of_target = jerk::process_noise(&Vector3::repeat(self.s * self.s), 1.0);
+        self.dynamics.add_process_noise(&mut q, &of_target, 1.0);
         let l = q.cholesky().unwrap().l();
         self.untold.dv_t_n += self.x.fixed_rows::<3>(6);
         self.untold.event_time += 1.0;

@@ -1,0 +1,305 @@
+//! How errors of both vehicles' states move over a step, and what that does to a covariance, by parts.
+//!
+//! The 18 states fall into parts of 6, 3, 6, 3: position and velocity of the target relative to the chaser, its acceleration a,
+//! position and velocity of the chaser, its bias b. A vehicle alone has, by Eq. (5) of Mamich and Zanetti,
+//!
+//! ```text
+//!     A = [0 I 0; G W M; 0 0 -k]     G, W: partials of gravity by position and velocity
+//!                                    M: how the third acts on the velocity, I or -DCM
+//! ```
+//!
+//! and dF/dt = F A = A F for F = exp(A t) says that all of it follows from B = F_rv, the answer of position to velocity:
+//!
+//! ```text
+//!     F_rr = B' - B W     F_rv = B      F_ra = C M             C = integral of B(s) exp(-k (t - s)) over s from 0 to t
+//!     F_vr = B G          F_vv = B'     F_va = (B - k C) M     F_aa = exp(-k t)
+//!     B'' = B G + B' W,   B(0) = 0,   B'(0) = I
+//! ```
+//!
+//! With r_t = r_tc + r_c the relative part inherits the difference of both vehicles, which is what A_t/c of Eq. (5) expresses:
+//!
+//! ```text
+//!     F = [T  T_a  T-C  -C_b]      T, C: F_rr to F_vv of target and chaser, 6x6; T_a, C_b: their F_ra above F_va, 6x3
+//!         [0  e_a   0     0 ]      e_a, e_b: their F_aa
+//!         [0   0    C    C_b]
+//!         [0   0    0    e_b]
+//! ```
+//!
+//! F P F^T then takes 18 columns under the first row of this, nine under the third, and the same again from the right, of which
+//! half is enough: 8 thousand operations where two products of 18x18 take 23 thousand.
+
+use crate::state::{N, N_TARGET, StateMatrix, TargetMatrix};
+use nalgebra::{Matrix3, SMatrix};
+use numerics::{expm, math};
+
+/// Above this, the series would need more terms than it has; a scaled one is taken, which a step of any sample never needs.
+const LARGE: f64 = 0.25;
+
+/// Terms beyond the first: 0.25^13 / 13! is 2e-18.
+const TERMS: usize = 13;
+
+/// exp(A t) of one vehicle: the four blocks of position and velocity, each less what it is without gravity, and those of the third.
+pub(super) struct Flow {
+    /// F_rr - I.
+    rr: Matrix3<f64>,
+    /// F_rv - t I.
+    rv: Matrix3<f64>,
+    /// F_vr.
+    vr: Matrix3<f64>,
+    /// F_vv - I.
+    vv: Matrix3<f64>,
+    /// F_ra and F_va, before M.
+    by_third: [Matrix3<f64>; 2],
+    /// exp(-k t).
+    decay: f64,
+}
+
+impl Flow {
+    /// * `by_r`, `by_v`: partials of the acceleration by position and velocity; `k`: inverse time constant of the third, not negative.
+    pub(super) fn new(by_r: &Matrix3<f64>, by_v: &Matrix3<f64>, k: f64, t: f64) -> Self {
+        let (g, w) = (by_r * (t * t), by_v * t);
+        let turns = w != Matrix3::zeros();
+        let size = g.abs().sum().sqrt() + w.abs().sum();
+        if size.is_nan() || size > LARGE {
+            return Self::scaled(by_r, by_v, k, t);
+        }
+        // u_n = b_n t^n / n! of B = sum of u_n, with b_1 = I and b_(n+1) = b_n W + b_(n-1) G.
+        let identity = Matrix3::identity();
+        let mut u = [Matrix3::zeros(); TERMS + 1];
+        u[0] = identity * t;
+        let mut last = 0;
+        for n in 1..=TERMS {
+            let next = (n + 1) as f64;
+            let mut term = Matrix3::zeros();
+            if n > 1 {
+                term += u[n - 2] * g * (1.0 / (next * n as f64));
+            }
+            if turns {
+                term += u[n - 1] * w * (1.0 / next);
+            }
+            u[n] = term;
+            // Of a field that does not turn, every other term is zero.
+            if n > 1 && term.amax() + u[n - 1].amax() <= t * 1e-19 {
+                break;
+            }
+            last = n;
+        }
+        let z = k * t;
+        let weights = weights(z, last + 1);
+        let (mut rv, mut vv) = (Matrix3::zeros(), Matrix3::zeros());
+        let mut c = identity * (t * t * weights[1]);
+        for (n, term) in u[..=last].iter().enumerate().skip(1) {
+            rv += term;
+            vv += term * ((n + 1) as f64);
+            c += term * (t * weights[n + 1]);
+        }
+        vv /= t;
+        let b = identity * t + rv;
+        let mut rr = vv;
+        if turns {
+            rr -= b * by_v;
+        }
+        Self {
+            rr,
+            rv,
+            vr: b * by_r,
+            vv,
+            by_third: [c, b - c * k],
+            decay: math::exp(-z),
+        }
+    }
+
+    /// The same by the exponential of the whole.
+    fn scaled(by_r: &Matrix3<f64>, by_v: &Matrix3<f64>, k: f64, t: f64) -> Self {
+        let mut a = TargetMatrix::zeros();
+        a.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
+        a.fixed_view_mut::<3, 3>(3, 0).copy_from(by_r);
+        a.fixed_view_mut::<3, 3>(3, 3).copy_from(by_v);
+        a.fixed_view_mut::<3, 3>(3, 6).fill_with_identity();
+        a.fixed_view_mut::<3, 3>(6, 6).fill_diagonal(-k);
+        let f = expm(&(a * t));
+        let block = |i: usize, j: usize| f.fixed_view::<3, 3>(3 * i, 3 * j).into_owned();
+        let identity = Matrix3::identity();
+        Self {
+            rr: block(0, 0) - identity,
+            rv: block(0, 1) - identity * t,
+            vr: block(1, 0),
+            vv: block(1, 1) - identity,
+            by_third: [block(0, 2), block(1, 2)],
+            decay: f[(6, 6)],
+        }
+    }
+}
+
+/// Integrals of s^n exp(-z (1 - s)) over s from 0 to 1, for n from 0 to `last`: what a term of B leaves in C, less its own size.
+///
+/// By the recurrence z I_n = 1 - n I_(n-1): downwards from a series at the last where z is small, else upwards.
+fn weights(z: f64, last: usize) -> [f64; TERMS + 2] {
+    let mut all = [0.0; TERMS + 2];
+    if z > 1.0 {
+        all[0] = -math::exp_m1(-z) / z;
+        for n in 1..=last {
+            all[n] = (1.0 - n as f64 * all[n - 1]) / z;
+        }
+        return all;
+    }
+    let mut term = 1.0 / (last + 1) as f64;
+    let mut over = (last + 2) as f64;
+    while term.abs() > 1e-18 {
+        all[last] += term;
+        term *= -z / over;
+        over += 1.0;
+    }
+    for n in (1..=last).rev() {
+        all[n - 1] = (1.0 - z * all[n]) / n as f64;
+    }
+    all
+}
+
+/// F of both vehicles, by parts; see the head of this file.
+#[derive(Clone, Debug)]
+pub struct Transition {
+    /// First row of F: what each of the 18 states does to relative position and velocity.
+    relative: [[f64; 6]; N],
+    /// Third row of F: what r_c, v_c and b_c do to r_c and v_c.
+    chaser: [[f64; 6]; 9],
+    /// e_a and e_b.
+    decay: [f64; 2],
+}
+
+impl Transition {
+    /// * `third`: how the chaser's bias acts on its velocity, M, if it does.
+    pub(super) fn new(target: &Flow, chaser: &Flow, third: Option<&Matrix3<f64>>, t: f64) -> Self {
+        let mut f = Self {
+            relative: [[0.0; 6]; N],
+            chaser: [[0.0; 6]; 9],
+            decay: [target.decay, chaser.decay],
+        };
+        let by_bias = third.map(|m| [chaser.by_third[0] * m, chaser.by_third[1] * m]);
+        for j in 0..3 {
+            for i in 0..3 {
+                let (one, step) = if i == j { (1.0, t) } else { (0.0, 0.0) };
+                f.relative[j][i] = one + target.rr[(i, j)];
+                f.relative[j][3 + i] = target.vr[(i, j)];
+                f.relative[3 + j][i] = step + target.rv[(i, j)];
+                f.relative[3 + j][3 + i] = one + target.vv[(i, j)];
+                f.relative[6 + j][i] = target.by_third[0][(i, j)];
+                f.relative[6 + j][3 + i] = target.by_third[1][(i, j)];
+                f.relative[9 + j][i] = target.rr[(i, j)] - chaser.rr[(i, j)];
+                f.relative[9 + j][3 + i] = target.vr[(i, j)] - chaser.vr[(i, j)];
+                f.relative[12 + j][i] = target.rv[(i, j)] - chaser.rv[(i, j)];
+                f.relative[12 + j][3 + i] = target.vv[(i, j)] - chaser.vv[(i, j)];
+                f.chaser[j][i] = one + chaser.rr[(i, j)];
+                f.chaser[j][3 + i] = chaser.vr[(i, j)];
+                f.chaser[3 + j][i] = step + chaser.rv[(i, j)];
+                f.chaser[3 + j][3 + i] = one + chaser.vv[(i, j)];
+                if let Some([r, v]) = &by_bias {
+                    f.chaser[6 + j][i] = r[(i, j)];
+                    f.chaser[6 + j][3 + i] = v[(i, j)];
+                    f.relative[15 + j][i] = -r[(i, j)];
+                    f.relative[15 + j][3 + i] = -v[(i, j)];
+                }
+            }
+        }
+        f
+    }
+
+    /// Adds what relative position and velocity do to relative velocity, 3x6.
+    pub(super) fn add_to_velocity(&mut self, by_x: &SMatrix<f64, 3, 6>) {
+        for (column, more) in self.relative.iter_mut().zip(by_x.column_iter()) {
+            for (value, more) in column[3..].iter_mut().zip(more.iter()) {
+                *value += more;
+            }
+        }
+    }
+
+    /// The target's nine states by themselves, 9x9.
+    pub fn of_target(&self) -> TargetMatrix {
+        TargetMatrix::from_fn(|i, j| match (i < 6, i == j) {
+            (true, _) => self.relative[j][i],
+            (false, true) => self.decay[0],
+            (false, false) => 0.0,
+        })
+    }
+
+    /// All of F, 18x18.
+    pub fn dense(&self) -> StateMatrix {
+        let mut f = StateMatrix::zeros();
+        f.fixed_view_mut::<9, 9>(0, 0).copy_from(&self.of_target());
+        for j in N_TARGET..N {
+            for i in 0..6 {
+                f[(i, j)] = self.relative[j][i];
+                f[(N_TARGET + i, j)] = self.chaser[j - N_TARGET][i];
+            }
+        }
+        for axis in 15..18 {
+            f[(axis, axis)] = self.decay[1];
+        }
+        f
+    }
+
+    /// F P F^T, 18x18, symmetric to the bit.
+    ///
+    /// * `p`: 18x18, symmetric.
+    pub fn carried(&self, p: &StateMatrix) -> StateMatrix {
+        let p = &p.data.0;
+        let [e_a, e_b] = self.decay;
+        // What comes from the left, by columns of P: all 18 of the first row, those of the chaser of the third.
+        let relative: [[f64; 6]; N] = std::array::from_fn(|j| times(&self.relative, &p[j]));
+        let chaser: [[f64; 6]; 9] = std::array::from_fn(|j| times(&self.chaser, below(&p[N_TARGET + j])));
+        let mut out = StateMatrix::zeros();
+        let to = &mut out.data.0;
+        // The lower triangle, by columns: first r_tc and v_tc.
+        for j in 0..6 {
+            let by: [f64; N] = std::array::from_fn(|k| self.relative[k][j]);
+            to[j][..6].copy_from_slice(&times(&relative, &by));
+            for axis in 0..3 {
+                to[j][6 + axis] = relative[6 + axis][j] * e_a;
+                to[j][15 + axis] = relative[15 + axis][j] * e_b;
+            }
+            let of_chaser: [f64; 9] = std::array::from_fn(|k| relative[N_TARGET + k][j]);
+            to[j][9..15].copy_from_slice(&times(&self.chaser, &of_chaser));
+        }
+        for j in 6..9 {
+            for i in 6..9 {
+                to[j][i] = e_a * e_a * p[j][i];
+                to[j][9 + i] = e_a * e_b * p[j][9 + i];
+            }
+            let of_chaser = times(&self.chaser, below(&p[j]));
+            for (i, value) in of_chaser.iter().enumerate() {
+                to[j][9 + i] = e_a * value;
+            }
+        }
+        for j in 0..6 {
+            let by: [f64; 9] = std::array::from_fn(|k| self.chaser[k][j]);
+            to[9 + j][9..15].copy_from_slice(&times(&chaser, &by));
+            for axis in 0..3 {
+                to[9 + j][15 + axis] = chaser[6 + axis][j] * e_b;
+            }
+        }
+        for j in 15..18 {
+            for i in 15..18 {
+                to[j][i] = e_b * e_b * p[j][i];
+            }
+        }
+        out.fill_upper_triangle_with_lower_triangle();
+        out
+    }
+}
+
+/// Rows of the chaser of a column.
+fn below(column: &[f64; N]) -> &[f64; 9] {
+    column.last_chunk().unwrap_or(&[0.0; 9])
+}
+
+/// Six rows times a vector; `columns` are the columns of the rows.
+#[inline(always)]
+fn times<const K: usize>(columns: &[[f64; 6]; K], by: &[f64; K]) -> [f64; 6] {
+    let mut sum = [0.0; 6];
+    for (column, by) in columns.iter().zip(by) {
+        for (sum, value) in sum.iter_mut().zip(column) {
+            *sum += value * by;
+        }
+    }
+    sum
+}
