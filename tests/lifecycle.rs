@@ -678,6 +678,19 @@ fn a_model_that_cannot_go_on_says_so_and_a_reset_helps() {
     let expected = case.run(&mut case.started(), 0..8);
     let mut instance = case.started();
     case.run(&mut instance, 0..4);
+    // An attitude that is no rotation is refused and changes nothing either.
+    let command_diagonal = |instance: &mut Instance, values: [f64; 3]| {
+        for (axis, value) in (1..).zip(values) {
+            set(instance, &format!("dcm_cmd_bc_n[{axis},{axis}]"), &Value::Real(value)).unwrap();
+        }
+    };
+    command_diagonal(&mut instance, [1.001, 1.0, 1.0]);
+    let error = instance.do_step(time(4), H).unwrap_err().to_string();
+    assert!(error.contains("dcm_cmd_bc_n"), "{error}");
+    command_diagonal(&mut instance, [0.0; 3]);
+    assert_eq!(case.run(&mut instance, 4..8), expected[4..]);
+    let mut instance = case.started();
+    case.run(&mut instance, 0..4);
     let state = instance.get_state().unwrap();
     let fail = |instance: &mut Instance| {
         set(instance, "a_dist_t_n[1]", &Value::Real(1e300)).unwrap();

@@ -8,7 +8,6 @@ use fmi2_export::{Experiment, Log, Model, ModelError, ModelInfo, Table, VendorAn
 use interface::annotation::{self, Bound, Filters, Only, Preset, Search, Set};
 use interface::mission::{Choice, Embedded, packed_guid};
 use interface::{Sensor, Signals, Status};
-use std::cell::OnceCell;
 use std::path::Path;
 use std::sync::OnceLock;
 use uuid::Uuid;
@@ -53,7 +52,7 @@ impl Model for NavModel {
             inputs: Signals::default(),
             command: Command::default(),
             navigator: None,
-            prediction: OnceCell::new(),
+            prediction: OnceLock::new(),
         }
     }
 
@@ -72,7 +71,7 @@ impl Model for NavModel {
         let (sample, nav_init) = self.arrived();
         navigator.begin(&sample, &nav_init, &self.command);
         self.navigator = Some(navigator);
-        self.prediction = OnceCell::new();
+        self.prediction = OnceLock::new();
         self.resolved = self.settings.resolved(&navigation)?;
         log.event(format_args!(
             "filter {} in mission {} starts at t = {} s",
@@ -96,7 +95,7 @@ impl Model for NavModel {
 
     fn do_step(&mut self, t: f64, h: f64, log: &mut Log<'_>) -> Result<(), ModelError> {
         let (sample, nav_init) = self.arrived();
-        self.prediction = OnceCell::new();
+        self.prediction = OnceLock::new();
         let Some(navigator) = &mut self.navigator else {
             return Ok(());
         };

@@ -5,7 +5,7 @@ use filters::{Command, FilterError, Navigator, Prediction, Sample, Settings};
 use interface::mission::Choice;
 use interface::{Signals, Status};
 use serde::{Deserialize, Serialize};
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 /// One slave.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -28,7 +28,7 @@ pub struct NavModel {
     pub navigator: Option<Navigator>,
     /// Its prediction, once somebody has asked for it since the last step: it costs a time update, and many masters never ask.
     #[serde(skip)]
-    pub prediction: OnceCell<Prediction>,
+    pub prediction: OnceLock<Prediction>,
 }
 
 impl NavModel {

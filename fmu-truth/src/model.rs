@@ -72,7 +72,7 @@ impl Model for TruthModel {
     }
 
     fn check_step(&self, t: f64, h: f64) -> Result<(), ModelError> {
-        self.simulation.as_ref().map_or(Ok(()), |s| Ok(s.check_end(t + h)?))
+        self.simulation.as_ref().map_or(Ok(()), |s| Ok(s.check(t + h, &self.inputs)?))
     }
 
     fn do_step(&mut self, t: f64, h: f64, _log: &mut Log<'_>) -> Result<(), ModelError> {

@@ -6,6 +6,7 @@ use std::ffi::{CString, c_char, c_void};
 use std::fmt::Write as _;
 use std::ptr;
 
+use fmi2_abi::callbacks::variadic;
 use fmi2_abi::{CallbackLogger, Fmi2CallbackFunctions, Fmi2Component, Fmi2FmuState, Fmi2Status, Fmi2String};
 use numerics::{Generator, Source, stream};
 use rand::RngExt;
@@ -59,15 +60,12 @@ fn lengths<T>(random: &mut Generator, array: &[T]) -> (*const T, usize) {
 
 impl Attack {
     pub fn new(libraries: [&'static Library; 2], seed: u64) -> Self {
-        type Fixed = unsafe extern "C" fn(*mut c_void, *const c_char, i32, *const c_char, *const c_char);
-        // SAFETY: our FMUs log finished messages, so the five named arguments are all; on Linux they travel as in a fixed call.
-        let logger = unsafe { std::mem::transmute::<Fixed, CallbackLogger>(hear) };
         Self {
             libraries,
             random: stream(seed, 0, Source::VentTiming),
             instances: Vec::new(),
             states: Vec::new(),
-            callbacks: [callbacks(Some(logger)), callbacks(None)],
+            callbacks: [callbacks(Some(variadic(hear))), callbacks(None)],
             answers: BTreeMap::new(),
         }
     }

@@ -2,13 +2,13 @@
 
 use std::ffi::CString;
 
-use fmi2_abi::functions as f;
+use fmi2_abi::{functions as f, symbols};
 use fmi2_import::loader::file_uri;
 use fmi2_import::{BaseType, Fmu, LIBRARY_SUFFIX, PLATFORM};
 use tempfile::TempDir;
 
 macro_rules! functions {
-    ($($field:ident: $type:ident = $name:literal;)*) => {
+    ($($field:ident: $type:ident = $symbol:ident;)*) => {
         /// Every function of the standard that takes an instance, but for those of model exchange.
         pub struct Functions {
             $(pub $field: f::$type,)*
@@ -16,48 +16,51 @@ macro_rules! functions {
 
         impl Functions {
             fn of(library: &libloading::Library) -> Self {
-                // SAFETY: the types are those of the standard for these names.
-                unsafe { Self { $($field: *library.get::<f::$type>($name).unwrap(),)* } }
+                fn get<F: Copy>(library: &libloading::Library, symbol: &symbols::Symbol<F>) -> F {
+                    // SAFETY: the library is ours, and the type that of the standard for this name.
+                    unsafe { *library.get::<F>(symbol.name).unwrap() }
+                }
+                Self { $($field: get(library, &symbols::$symbol),)* }
             }
         }
     };
 }
 
 functions! {
-    set_debug_logging: SetDebugLogging = "fmi2SetDebugLogging";
-    instantiate: Instantiate = "fmi2Instantiate";
-    free_instance: FreeInstance = "fmi2FreeInstance";
-    setup_experiment: SetupExperiment = "fmi2SetupExperiment";
-    enter_initialization_mode: EnterInitializationMode = "fmi2EnterInitializationMode";
-    exit_initialization_mode: ExitInitializationMode = "fmi2ExitInitializationMode";
-    terminate: Terminate = "fmi2Terminate";
-    reset: Reset = "fmi2Reset";
-    get_real: GetReal = "fmi2GetReal";
-    get_integer: GetInteger = "fmi2GetInteger";
-    get_boolean: GetBoolean = "fmi2GetBoolean";
-    get_string: GetString = "fmi2GetString";
-    set_real: SetReal = "fmi2SetReal";
-    set_integer: SetInteger = "fmi2SetInteger";
-    set_boolean: SetBoolean = "fmi2SetBoolean";
-    set_string: SetString = "fmi2SetString";
-    get_state: GetFmuState = "fmi2GetFMUstate";
-    set_state: SetFmuState = "fmi2SetFMUstate";
-    free_state: FreeFmuState = "fmi2FreeFMUstate";
-    state_size: SerializedFmuStateSize = "fmi2SerializedFMUstateSize";
-    serialize_state: SerializeFmuState = "fmi2SerializeFMUstate";
-    deserialize_state: DeSerializeFmuState = "fmi2DeSerializeFMUstate";
-    directional_derivative: GetDirectionalDerivative = "fmi2GetDirectionalDerivative";
-    input_derivatives: SetRealInputDerivatives = "fmi2SetRealInputDerivatives";
-    output_derivatives: GetRealOutputDerivatives = "fmi2GetRealOutputDerivatives";
-    do_step: DoStep = "fmi2DoStep";
-    cancel_step: CancelStep = "fmi2CancelStep";
-    get_status: GetStatus = "fmi2GetStatus";
-    get_real_status: GetRealStatus = "fmi2GetRealStatus";
-    get_integer_status: GetIntegerStatus = "fmi2GetIntegerStatus";
-    get_boolean_status: GetBooleanStatus = "fmi2GetBooleanStatus";
-    get_string_status: GetStringStatus = "fmi2GetStringStatus";
-    set_time: SetTime = "fmi2SetTime";
-    get_derivatives: GetDerivatives = "fmi2GetDerivatives";
+    set_debug_logging: SetDebugLogging = SET_DEBUG_LOGGING;
+    instantiate: Instantiate = INSTANTIATE;
+    free_instance: FreeInstance = FREE_INSTANCE;
+    setup_experiment: SetupExperiment = SETUP_EXPERIMENT;
+    enter_initialization_mode: EnterInitializationMode = ENTER_INITIALIZATION_MODE;
+    exit_initialization_mode: ExitInitializationMode = EXIT_INITIALIZATION_MODE;
+    terminate: Terminate = TERMINATE;
+    reset: Reset = RESET;
+    get_real: GetReal = GET_REAL;
+    get_integer: GetInteger = GET_INTEGER;
+    get_boolean: GetBoolean = GET_BOOLEAN;
+    get_string: GetString = GET_STRING;
+    set_real: SetReal = SET_REAL;
+    set_integer: SetInteger = SET_INTEGER;
+    set_boolean: SetBoolean = SET_BOOLEAN;
+    set_string: SetString = SET_STRING;
+    get_state: GetFmuState = GET_FMU_STATE;
+    set_state: SetFmuState = SET_FMU_STATE;
+    free_state: FreeFmuState = FREE_FMU_STATE;
+    state_size: SerializedFmuStateSize = SERIALIZED_FMU_STATE_SIZE;
+    serialize_state: SerializeFmuState = SERIALIZE_FMU_STATE;
+    deserialize_state: DeSerializeFmuState = DE_SERIALIZE_FMU_STATE;
+    directional_derivative: GetDirectionalDerivative = GET_DIRECTIONAL_DERIVATIVE;
+    input_derivatives: SetRealInputDerivatives = SET_REAL_INPUT_DERIVATIVES;
+    output_derivatives: GetRealOutputDerivatives = GET_REAL_OUTPUT_DERIVATIVES;
+    do_step: DoStep = DO_STEP;
+    cancel_step: CancelStep = CANCEL_STEP;
+    get_status: GetStatus = GET_STATUS;
+    get_real_status: GetRealStatus = GET_REAL_STATUS;
+    get_integer_status: GetIntegerStatus = GET_INTEGER_STATUS;
+    get_boolean_status: GetBooleanStatus = GET_BOOLEAN_STATUS;
+    get_string_status: GetStringStatus = GET_STRING_STATUS;
+    set_time: SetTime = SET_TIME;
+    get_derivatives: GetDerivatives = GET_DERIVATIVES;
 }
 
 pub struct Library {

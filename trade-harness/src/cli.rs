@@ -11,7 +11,7 @@ use study::{
 };
 
 use crate::pack;
-use crate::platforms::Wanted;
+use crate::pack::platforms::Wanted;
 use crate::tuning::ranges::Range;
 use crate::tuning::standing::Objective;
 

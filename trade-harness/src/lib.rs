@@ -21,7 +21,6 @@ pub mod output;
 pub mod pack;
 #[cfg_attr(not(feature = "parquet"), path = "no_parquet.rs")]
 pub mod parquet;
-pub mod platforms;
 pub mod regret;
 pub mod report;
 pub mod reproduce;

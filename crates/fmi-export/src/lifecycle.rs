@@ -112,7 +112,8 @@ pub unsafe fn free_instance<V: Version, M: Exported<V>>(component: *mut c_void, 
     };
     handle.retire();
     let logger = handle.logger.clone();
-    drop(claim);
+    // Never given back: a call that overlaps this one is refused until the end.
+    std::mem::forget(claim);
     // SAFETY: the box was made by `create` and is given up here: `handle` and `claim` are not used any more.
     let freed = guarded(|| drop(unsafe { Box::from_raw(component.cast::<Handle<V, M>>()) }));
     if let Err(panic) = freed {

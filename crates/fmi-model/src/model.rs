@@ -17,8 +17,9 @@ pub type ModelError = Box<dyn std::error::Error + Send + Sync>;
 /// A simulation model that can be exported as a co-simulation slave.
 ///
 /// A value of the type is the whole state of one instance: cloning it saves the state, and serde turns it into bytes, so
-/// nothing that a later output depends on may live outside it or be skipped by serde.
-pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
+/// nothing that a later output depends on may live outside it or be skipped by serde. A saved state may be set on several instances,
+/// in several threads at once, so it is read by all of them.
+pub trait Model: Clone + Serialize + DeserializeOwned + Send + Sync + 'static {
     /// Name, version and defaults of the FMU; kept by the model crate in a `OnceLock`.
     fn info() -> &'static ModelInfo;
 
@@ -48,7 +49,7 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
     fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError>;
 
     /// Says why a step from `t` to `t + h` (s) cannot be taken, before any is begun: one that is longer than the model can compute
-    /// in reasonable time.
+    /// in reasonable time, or one with inputs that make no sense.
     ///
     /// # Errors
     /// Any error refuses the call, and the instance stays as it was.

@@ -2,11 +2,14 @@
 //!
 //! # Where to start
 //!
-//! With [`types`]; [`functions`] holds one pointer type for each function of the standard. An integer that comes from
+//! With [`types`]; [`functions`] holds one pointer type for each function of the standard, [`symbols`] the names to look them up by,
+//! [`callbacks`] what a host in Rust hands over. An integer that comes from
 //! the other side of the boundary is never trusted to be an enum: it arrives as a [`RawStatus`] or [`c_int`](std::ffi::c_int)
 //! and is read by `from_raw`.
 
+pub mod callbacks;
 pub mod functions;
+pub mod symbols;
 pub mod types;
 
 pub use types::*;

@@ -1,5 +1,7 @@
 //! Names of the functions of the standard, by what they are for.
 
+use fmi2_abi::symbols;
+
 /// Functions of one purpose.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Group {
@@ -10,41 +12,41 @@ pub(crate) struct Group {
 
 const STATES: Group = Group {
     flag: Some("canGetAndSetFMUstate"),
-    names: &["fmi2GetFMUstate", "fmi2SetFMUstate", "fmi2FreeFMUstate"],
+    names: &[symbols::GET_FMU_STATE.name, symbols::SET_FMU_STATE.name, symbols::FREE_FMU_STATE.name],
 };
 const SERIALIZATION: Group = Group {
     flag: Some("canSerializeFMUstate"),
     names: &[
-        "fmi2SerializedFMUstateSize",
-        "fmi2SerializeFMUstate",
-        "fmi2DeSerializeFMUstate",
+        symbols::SERIALIZED_FMU_STATE_SIZE.name,
+        symbols::SERIALIZE_FMU_STATE.name,
+        symbols::DE_SERIALIZE_FMU_STATE.name,
     ],
 };
 const DERIVATIVES: Group = Group {
     flag: Some("providesDirectionalDerivative"),
-    names: &["fmi2GetDirectionalDerivative"],
+    names: &[symbols::GET_DIRECTIONAL_DERIVATIVE.name],
 };
 const COMMON: Group = Group {
     flag: None,
     names: &[
-        "fmi2GetTypesPlatform",
-        "fmi2GetVersion",
-        "fmi2SetDebugLogging",
-        "fmi2Instantiate",
-        "fmi2FreeInstance",
-        "fmi2SetupExperiment",
-        "fmi2EnterInitializationMode",
-        "fmi2ExitInitializationMode",
-        "fmi2Terminate",
-        "fmi2Reset",
-        "fmi2GetReal",
-        "fmi2GetInteger",
-        "fmi2GetBoolean",
-        "fmi2GetString",
-        "fmi2SetReal",
-        "fmi2SetInteger",
-        "fmi2SetBoolean",
-        "fmi2SetString",
+        symbols::GET_TYPES_PLATFORM.name,
+        symbols::GET_VERSION.name,
+        symbols::SET_DEBUG_LOGGING.name,
+        symbols::INSTANTIATE.name,
+        symbols::FREE_INSTANCE.name,
+        symbols::SETUP_EXPERIMENT.name,
+        symbols::ENTER_INITIALIZATION_MODE.name,
+        symbols::EXIT_INITIALIZATION_MODE.name,
+        symbols::TERMINATE.name,
+        symbols::RESET.name,
+        symbols::GET_REAL.name,
+        symbols::GET_INTEGER.name,
+        symbols::GET_BOOLEAN.name,
+        symbols::GET_STRING.name,
+        symbols::SET_REAL.name,
+        symbols::SET_INTEGER.name,
+        symbols::SET_BOOLEAN.name,
+        symbols::SET_STRING.name,
     ],
 };
 
@@ -54,22 +56,22 @@ pub(crate) const CO_SIMULATION: &[Group] = &[
     Group {
         flag: None,
         names: &[
-            "fmi2DoStep",
-            "fmi2CancelStep",
-            "fmi2GetStatus",
-            "fmi2GetRealStatus",
-            "fmi2GetIntegerStatus",
-            "fmi2GetBooleanStatus",
-            "fmi2GetStringStatus",
+            symbols::DO_STEP.name,
+            symbols::CANCEL_STEP.name,
+            symbols::GET_STATUS.name,
+            symbols::GET_REAL_STATUS.name,
+            symbols::GET_INTEGER_STATUS.name,
+            symbols::GET_BOOLEAN_STATUS.name,
+            symbols::GET_STRING_STATUS.name,
         ],
     },
     Group {
         flag: Some("canInterpolateInputs"),
-        names: &["fmi2SetRealInputDerivatives"],
+        names: &[symbols::SET_REAL_INPUT_DERIVATIVES.name],
     },
     Group {
         flag: Some("maxOutputDerivativeOrder"),
-        names: &["fmi2GetRealOutputDerivatives"],
+        names: &[symbols::GET_REAL_OUTPUT_DERIVATIVES.name],
     },
     STATES,
     SERIALIZATION,
@@ -82,16 +84,16 @@ pub(crate) const MODEL_EXCHANGE: &[Group] = &[
     Group {
         flag: None,
         names: &[
-            "fmi2EnterEventMode",
-            "fmi2NewDiscreteStates",
-            "fmi2EnterContinuousTimeMode",
-            "fmi2CompletedIntegratorStep",
-            "fmi2SetTime",
-            "fmi2SetContinuousStates",
-            "fmi2GetDerivatives",
-            "fmi2GetEventIndicators",
-            "fmi2GetContinuousStates",
-            "fmi2GetNominalsOfContinuousStates",
+            symbols::ENTER_EVENT_MODE.name,
+            symbols::NEW_DISCRETE_STATES.name,
+            symbols::ENTER_CONTINUOUS_TIME_MODE.name,
+            symbols::COMPLETED_INTEGRATOR_STEP.name,
+            symbols::SET_TIME.name,
+            symbols::SET_CONTINUOUS_STATES.name,
+            symbols::GET_DERIVATIVES.name,
+            symbols::GET_EVENT_INDICATORS.name,
+            symbols::GET_CONTINUOUS_STATES.name,
+            symbols::GET_NOMINALS_OF_CONTINUOUS_STATES.name,
         ],
     },
     STATES,

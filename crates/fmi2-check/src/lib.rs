@@ -5,9 +5,6 @@
 //! With [`check`]; [`rules`] holds every rule with its section. `archive`, `xml`, `description` and `binary` each check what they
 //! are called after.
 
-// The library is C: calling it needs `unsafe`, which stays in `binary`.
-#![allow(unsafe_code)]
-
 mod archive;
 mod binary;
 mod description;

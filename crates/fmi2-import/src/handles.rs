@@ -1,4 +1,5 @@
 //! Saved states, which free themselves through the list of the instance that made them.
+#![allow(unsafe_code, reason = "pointers of a C library go to other threads")]
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

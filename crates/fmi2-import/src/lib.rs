@@ -5,10 +5,6 @@
 //! With [`Fmu::open`]: its [`ModelDescription`] answers questions without loading anything, and [`Fmu::instantiate`] gives an
 //! [`Instance`] to drive.
 
-// The loaded library is C: calling it needs `unsafe`, which stays in `library`, `instance`, `handles`, `logger` and
-// `guard`.
-#![allow(unsafe_code)]
-
 mod archive;
 mod description;
 mod error;

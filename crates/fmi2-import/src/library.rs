@@ -1,10 +1,12 @@
 //! The loaded library: its functions, and the folder it was unpacked to.
+#![allow(unsafe_code, reason = "loads a C library and looks its functions up")]
 
 use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use fmi2_abi::functions as f;
+use fmi2_abi::symbols::{self, Symbol};
 use libloading::Library;
 use tempfile::TempDir;
 
@@ -77,7 +79,7 @@ pub(crate) struct Binary {
     before_loading: BeforeLoading,
     loaded: ManuallyDrop<Library>,
     // Dropped after the library: an open library cannot be deleted everywhere.
-    _folder: TempDir,
+    folder: TempDir,
 }
 
 impl Drop for Binary {
@@ -86,6 +88,9 @@ impl Drop for Binary {
             // SAFETY: the field is not used again, and no instance is left that could call into the library.
             guard::around(Watch::Whole, || unsafe { ManuallyDrop::drop(&mut self.loaded) });
             self.before_loading.after_unloading();
+        } else {
+            // Code that may still run may still read its resources.
+            self.folder.disable_cleanup(true);
         }
     }
 }
@@ -115,14 +120,14 @@ impl Binary {
             library: entry.clone(),
             reason: loader_text(&e),
         })?;
-        let symbols = Symbols {
+        let offered = Symbols {
             loaded: &library,
             path,
             entry: &entry,
         };
-        symbols.check_answer("fmi2GetVersion", "2.0")?;
-        symbols.check_answer("fmi2GetTypesPlatform", "default")?;
-        let functions = symbols.functions(attributes)?;
+        offered.check_answer(&symbols::GET_VERSION, "2.0")?;
+        offered.check_answer(&symbols::GET_TYPES_PLATFORM, "default")?;
+        let functions = offered.functions(attributes)?;
         Ok(Self {
             functions,
             resources: file_uri(&folder.path().join("resources")),
@@ -131,7 +136,7 @@ impl Binary {
             keep_loaded: AtomicBool::new(false),
             before_loading,
             loaded: ManuallyDrop::new(library),
-            _folder: folder,
+            folder,
         })
     }
 }
@@ -209,21 +214,20 @@ struct Symbols<'a> {
 }
 
 impl Symbols<'_> {
-    /// The function `name`.
-    fn get<T: Copy>(&self, name: &str) -> Result<T, ImportError> {
-        // SAFETY: `T` is the type that the standard gives to this name; `fmi2GetVersion` guards against other versions.
-        unsafe { self.loaded.get::<T>(name) }
-            .map(|symbol| *symbol)
+    fn get<F: Copy>(&self, symbol: &Symbol<F>) -> Result<F, ImportError> {
+        // SAFETY: `F` is the type that the standard gives to this name; `fmi2GetVersion` guards against other versions.
+        unsafe { self.loaded.get::<F>(symbol.name) }
+            .map(|function| *function)
             .map_err(|_| ImportError::MissingSymbol {
                 path: self.path.to_owned(),
                 library: self.entry.to_owned(),
-                symbol: name.to_owned(),
+                symbol: symbol.name.to_owned(),
             })
     }
 
     /// Calls one of the two inquiry functions, which share one shape.
-    fn check_answer(&self, function: &'static str, expected: &'static str) -> Result<(), ImportError> {
-        let inquiry: f::GetVersion = self.get(function)?;
+    fn check_answer(&self, symbol: &Symbol<f::GetVersion>, expected: &'static str) -> Result<(), ImportError> {
+        let (function, inquiry) = (symbol.name, self.get(symbol)?);
         // SAFETY: the inquiries have no preconditions and answer with a static C string.
         let found = guard::around(Watch::Whole, || unsafe { text(inquiry()) });
         if found == expected {
@@ -240,39 +244,39 @@ impl Symbols<'_> {
 
     fn functions(&self, attributes: &CoSimulation) -> Result<Functions, ImportError> {
         Ok(Functions {
-            instantiate: self.get("fmi2Instantiate")?,
-            free_instance: self.get("fmi2FreeInstance")?,
-            set_debug_logging: self.get("fmi2SetDebugLogging")?,
-            setup_experiment: self.get("fmi2SetupExperiment")?,
-            enter_initialization_mode: self.get("fmi2EnterInitializationMode")?,
-            exit_initialization_mode: self.get("fmi2ExitInitializationMode")?,
-            terminate: self.get("fmi2Terminate")?,
-            reset: self.get("fmi2Reset")?,
-            get_real: self.get("fmi2GetReal")?,
-            get_integer: self.get("fmi2GetInteger")?,
-            get_boolean: self.get("fmi2GetBoolean")?,
-            get_string: self.get("fmi2GetString")?,
-            set_real: self.get("fmi2SetReal")?,
-            set_integer: self.get("fmi2SetInteger")?,
-            set_boolean: self.get("fmi2SetBoolean")?,
-            set_string: self.get("fmi2SetString")?,
-            do_step: self.get("fmi2DoStep")?,
-            get_real_status: self.get("fmi2GetRealStatus").ok(),
-            get_boolean_status: self.get("fmi2GetBooleanStatus").ok(),
+            instantiate: self.get(&symbols::INSTANTIATE)?,
+            free_instance: self.get(&symbols::FREE_INSTANCE)?,
+            set_debug_logging: self.get(&symbols::SET_DEBUG_LOGGING)?,
+            setup_experiment: self.get(&symbols::SETUP_EXPERIMENT)?,
+            enter_initialization_mode: self.get(&symbols::ENTER_INITIALIZATION_MODE)?,
+            exit_initialization_mode: self.get(&symbols::EXIT_INITIALIZATION_MODE)?,
+            terminate: self.get(&symbols::TERMINATE)?,
+            reset: self.get(&symbols::RESET)?,
+            get_real: self.get(&symbols::GET_REAL)?,
+            get_integer: self.get(&symbols::GET_INTEGER)?,
+            get_boolean: self.get(&symbols::GET_BOOLEAN)?,
+            get_string: self.get(&symbols::GET_STRING)?,
+            set_real: self.get(&symbols::SET_REAL)?,
+            set_integer: self.get(&symbols::SET_INTEGER)?,
+            set_boolean: self.get(&symbols::SET_BOOLEAN)?,
+            set_string: self.get(&symbols::SET_STRING)?,
+            do_step: self.get(&symbols::DO_STEP)?,
+            get_real_status: self.get(&symbols::GET_REAL_STATUS).ok(),
+            get_boolean_status: self.get(&symbols::GET_BOOLEAN_STATUS).ok(),
             states: if attributes.can_get_and_set_fmu_state {
                 Some(StateFunctions {
-                    get: self.get("fmi2GetFMUstate")?,
-                    set: self.get("fmi2SetFMUstate")?,
-                    free: self.get("fmi2FreeFMUstate")?,
+                    get: self.get(&symbols::GET_FMU_STATE)?,
+                    set: self.get(&symbols::SET_FMU_STATE)?,
+                    free: self.get(&symbols::FREE_FMU_STATE)?,
                 })
             } else {
                 None
             },
             serialization: if attributes.can_serialize_fmu_state {
                 Some(SerializationFunctions {
-                    size: self.get("fmi2SerializedFMUstateSize")?,
-                    serialize: self.get("fmi2SerializeFMUstate")?,
-                    deserialize: self.get("fmi2DeSerializeFMUstate")?,
+                    size: self.get(&symbols::SERIALIZED_FMU_STATE_SIZE)?,
+                    serialize: self.get(&symbols::SERIALIZE_FMU_STATE)?,
+                    deserialize: self.get(&symbols::DE_SERIALIZE_FMU_STATE)?,
                 })
             } else {
                 None

@@ -186,6 +186,11 @@ impl Place {
                 None => rest,
                 Some(rest) => rest.strip_prefix("localhost").unwrap_or(rest),
             };
+            // A drive of Windows stands behind a slash of its own.
+            let absolute = match absolute.as_bytes() {
+                [b'/', drive, b':', ..] if cfg!(windows) && drive.is_ascii_alphabetic() => &absolute[1..],
+                _ => absolute,
+            };
             if !Path::new(absolute).is_absolute() {
                 return Err(wrong("has no absolute path"));
             }

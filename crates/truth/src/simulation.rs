@@ -235,11 +235,12 @@ impl Simulation {
         finite(&self.now.state, t)
     }
 
-    /// Whether [`advance_to`](Self::advance_to) goes as far as `t`, s.
+    /// Whether [`advance_to`](Self::advance_to) goes as far as `t`, s, with these inputs.
     ///
     /// # Errors
-    /// When `t` lies before the present or absurdly far ahead.
-    pub fn check_end(&self, t: f64) -> Result<(), TruthError> {
+    /// When an input makes no sense, or `t` lies before the present or absurdly far ahead.
+    pub fn check(&self, t: f64, inputs: &Inputs) -> Result<(), TruthError> {
+        inputs.check(t)?;
         self.checked_end(t).map(drop)
     }
 

@@ -5,7 +5,7 @@ use super::shared::Verdict;
 use crate::HarnessError;
 use crate::cli::PackArgs;
 use crate::pack::{default_folder, pack_for};
-use crate::platforms::chosen;
+use crate::pack::platforms::chosen;
 
 pub(super) fn pack(args: &PackArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.workspace));

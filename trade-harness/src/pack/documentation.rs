@@ -16,10 +16,16 @@ const STYLE: &str = "body{font:15px/1.5 sans-serif;margin:2em auto;max-width:70e
 table{border-collapse:collapse}td,th{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left;vertical-align:top}\
 code{white-space:nowrap}h2{margin-top:1.6em}.eq{font:1.15em/1.6 serif;margin:.6em 2em}";
 
-/// Files beside the page, `NAME` for that of the model, and what they are; the reference results first.
+/// Place of the page in an FMU.
+pub(super) const PAGE: &str = "documentation/index.html";
+
+/// The reference results, where there are any; `NAME` for that of the model.
+const REFERENCE: &str = "reference/NAME_ref.csv";
+
+/// Files beside the page, and what they are.
 const FILES: [(&str, &str); 4] = [
     (
-        "reference/NAME_ref.csv",
+        REFERENCE,
         "what this FMU answers in its default experiment, as the FMI cross-check rules write it",
     ),
     (
@@ -33,11 +39,11 @@ const FILES: [(&str, &str); 4] = [
 /// The page: what the FMU is, its presets and its variables.
 ///
 /// * `reference`: whether there are reference results beside it.
-/// * `model`: what it simulates, as HTML.
-pub(super) fn html(d: &ModelDescription, filters: &Filters, reference: bool, model: &str) -> String {
+/// * `model`: what it simulates, as HTML; `standard`: by which it is packed.
+pub(super) fn html(d: &ModelDescription, filters: &Filters, reference: bool, model: &str, standard: &str) -> String {
     let name = escape(&d.model_name);
     let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title><style>{STYLE}</style></head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n<p>FMI 2.0 co-simulation, version {}, licence {}.</p>\n",
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title><style>{STYLE}</style></head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n<p>Co-simulation by {standard}; version {}, licence {}.</p>\n",
         escape(d.description.as_deref().unwrap_or_default()),
         escape(d.version.as_deref().unwrap_or("unknown")),
         escape(d.license.as_deref().unwrap_or("not stated")),
@@ -45,7 +51,7 @@ pub(super) fn html(d: &ModelDescription, filters: &Filters, reference: bool, mod
     page.push_str("<p><img src=\"picture.svg\" alt=\"\" width=\"160\" height=\"160\"></p>\n");
     page.push_str(model);
     page.push_str("<h2>Files</h2>\n<ul>\n");
-    for (file, about) in FILES.into_iter().skip(usize::from(!reference)) {
+    for (file, about) in FILES.into_iter().filter(|(file, _)| reference || *file != REFERENCE) {
         let file = file.replace("NAME", &name);
         page.push_str(&format!("<li><a href=\"{file}\">{file}</a>: {about}</li>\n"));
     }

@@ -7,6 +7,7 @@ use std::process::{Command, Stdio};
 
 use serde_json::json;
 
+use super::platforms::RunsOn;
 use super::{Files, read};
 use crate::HarnessError;
 
@@ -47,7 +48,7 @@ pub(super) fn source_of(line: &str) -> Option<((String, String), PathBuf)> {
 
 /// Licences, list and bill of materials of one of our FMUs.
 ///
-/// * `platforms`: those that it has libraries for, as FMI 2.0 names them.
+/// * `platforms`: those that it has libraries for.
 /// * `sources`: where the packages are.
 ///
 /// # Errors
@@ -55,7 +56,7 @@ pub(super) fn source_of(line: &str) -> Option<((String, String), PathBuf)> {
 pub(super) fn files(
     workspace: &Path,
     name: &str,
-    platforms: &BTreeSet<String>,
+    platforms: &[RunsOn],
     sources: &Sources,
 ) -> Result<Files, HarnessError> {
     let mut linked = crates(workspace, name, platforms)?;
@@ -141,13 +142,13 @@ fn texts(folder: &Path) -> Result<Files, HarnessError> {
 }
 
 /// Every crate that is linked into one of ours; not those that only run while it is compiled.
-fn crates(workspace: &Path, name: &str, platforms: &BTreeSet<String>) -> Result<BTreeSet<Linked>, HarnessError> {
+fn crates(workspace: &Path, name: &str, platforms: &[RunsOn]) -> Result<BTreeSet<Linked>, HarnessError> {
     let program = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let mut cargo = Command::new(&program);
     cargo.args(["tree", "--quiet", "--prefix", "none", "--edges", "normal,no-proc-macro"]);
     cargo.args(["--format", "{p}\t{l}", "--package", name, "--manifest-path"]);
     cargo.arg(workspace.join("Cargo.toml"));
-    for target in platforms.iter().flat_map(|platform| targets(platform)) {
+    for target in platforms.iter().filter_map(|platform| platform.target) {
         cargo.args(["--target", target]);
     }
     let output = cargo.stdin(Stdio::null()).output();
@@ -176,19 +177,6 @@ fn listed(line: &str) -> Option<Linked> {
         licence: licence.trim_end_matches(" (*)").replace('/', " OR "),
         origin: if local { Origin::Workspace } else { Origin::Registry },
     })
-}
-
-/// What Rust calls a platform of FMI 2.0; none for that of this machine under another name.
-fn targets(platform: &str) -> &'static [&'static str] {
-    match platform {
-        "linux64" => &["x86_64-unknown-linux-gnu"],
-        "aarch64-linux" => &["aarch64-unknown-linux-gnu"],
-        "linux32" => &["i686-unknown-linux-gnu"],
-        "win64" => &["x86_64-pc-windows-gnu"],
-        "win32" => &["i686-pc-windows-gnu"],
-        "darwin64" => &["aarch64-apple-darwin", "x86_64-apple-darwin"],
-        _ => &[],
-    }
 }
 
 /// Version of the compiler, whose standard library is linked in; empty if it does not say.

@@ -4,6 +4,7 @@ mod date;
 mod documentation;
 pub mod fmi3;
 mod linked;
+pub mod platforms;
 mod reference;
 mod terminals;
 
@@ -20,12 +21,12 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 pub(crate) use documentation::GROUPS;
+use platforms::{Call, Platform, joined, recipes};
 use reference::{Reference, Table};
 
 use crate::HarnessError;
 use crate::digest::of_bytes;
 use crate::output::write_whole;
-use crate::platforms::{Call, Platform, joined, recipes};
 use crate::structure;
 
 /// The description, first in an archive, so that whoever reads one as a stream has it at once.
@@ -120,20 +121,23 @@ pub fn pack_for(
         };
         let picture = read(&committed.join("icon.svg"))?;
         let page = read(&committed.join("documentation.html"))?;
-        let page = documentation::html(
-            fmu.description(),
-            &filters_of(fmu.description())?,
-            runs_here(&files),
-            &String::from_utf8_lossy(&page),
-        );
-        files.insert("documentation/index.html".to_owned(), page.into_bytes());
+        let told = filters_of(fmu.description())?;
+        let page = |of| {
+            let page = String::from_utf8_lossy(&page);
+            documentation::html(fmu.description(), &told, runs_here(&files), &page, of).into_bytes()
+        };
+        let pages = [page("FMI 2.0"), page("FMI 3.0, elements of arrays listed one by one")];
+        let [page, page_of_twin] = pages;
+        files.insert(documentation::PAGE.to_owned(), page);
         files.insert("documentation/picture.svg".to_owned(), picture.clone());
-        files.extend(linked::files(workspace, name, &platforms_of(&files), &built.sources)?);
+        files.extend(linked::files(workspace, name, &built.platforms, &built.sources)?);
         let shared = files.clone();
         files.insert(ICON.to_owned(), read(&committed.join("icon.png"))?);
         files.extend(beside(&reference[0], REFERENCE));
         let twin = read(&fmi3::description(workspace, name))?;
-        let mut twin = fmi3::files(&shared, dated(described(twin, fmi3::IDENTIFIER, guid, inside)));
+        let described = dated(described(twin, fmi3::IDENTIFIER, guid, inside));
+        let mut twin = fmi3::files(&shared, &built.platforms, described);
+        twin.insert(documentation::PAGE.to_owned(), page_of_twin);
         twin.extend(beside(&reference[1], REFERENCE));
         twin.extend(fmi3::drawn(
             terminals::xml(fmu.description()),
@@ -177,13 +181,8 @@ fn beside(files: &Files, folder: &str) -> Files {
 
 /// Whether there is a library for this platform.
 fn runs_here(files: &Files) -> bool {
-    platforms_of(files).contains(PLATFORM)
-}
-
-/// Platforms that there are libraries for.
-fn platforms_of(files: &Files) -> BTreeSet<String> {
-    let platform = |file: &String| Some(file.strip_prefix("binaries/")?.split_once('/')?.0.to_owned());
-    files.keys().filter_map(platform).collect()
+    let folder = format!("binaries/{PLATFORM}/");
+    files.keys().any(|file| file.starts_with(&folder))
 }
 
 /// Contents by name in the archive.
@@ -251,6 +250,8 @@ fn attribute<'a>(xml: &'a str, name: &str) -> &'a str {
 /// What cargo made: `Library` of each identifier.
 #[derive(Debug)]
 struct Built<Library> {
+    /// What it runs on.
+    platforms: Vec<platforms::RunsOn>,
     libraries: BTreeMap<String, Library>,
     /// GUID of each crate's build, without braces.
     guids: BTreeMap<&'static str, String>,
@@ -261,11 +262,13 @@ struct Built<Library> {
 /// The libraries of every platform by their names in the archive.
 fn build_all(platforms: &BTreeSet<Platform>, workspace: &Path, quiet: bool) -> Result<Built<Files>, HarnessError> {
     let mut all = Built {
+        platforms: Vec::new(),
         libraries: BTreeMap::<String, Files>::new(),
         guids: BTreeMap::new(),
         sources: linked::Sources::new(),
     };
     for recipe in recipes(platforms)? {
+        all.platforms.extend(recipe.built());
         let mut parts: BTreeMap<String, Vec<Vec<u8>>> = BTreeMap::new();
         for call in &recipe.calls {
             let built = build(workspace, quiet, call, recipe.suffix)?;
@@ -318,6 +321,7 @@ fn build(workspace: &Path, quiet: bool, call: &Call, suffix: &str) -> Result<Bui
         .spawn()
         .map_err(no_cargo)?;
     let mut built = Built {
+        platforms: Vec::new(),
         libraries: BTreeMap::new(),
         guids: BTreeMap::new(),
         sources: linked::Sources::new(),

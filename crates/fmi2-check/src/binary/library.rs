@@ -4,14 +4,22 @@ use std::ffi::CString;
 use std::path::Path;
 
 use fmi2_abi::functions as f;
+use fmi2_abi::symbols::{self, Symbol};
 use fmi2_import::loader;
 use libloading::Library as Loaded;
 
 use super::logger::text;
 
+/// # Safety
+/// The library keeps to the C types of the standard.
+unsafe fn get<F: Copy>(library: &Loaded, symbol: &Symbol<F>) -> Option<F> {
+    // SAFETY: as the caller vouches.
+    unsafe { library.get::<F>(symbol.name) }.ok().map(|function| *function)
+}
+
 /// Functions by their name in the standard.
 macro_rules! functions {
-    ($($field:ident: $type:ident = $name:literal;)*) => {
+    ($($field:ident: $type:ident = $symbol:ident;)*) => {
         /// The functions that the trials call.
         #[derive(Debug)]
         pub(super) struct Functions {
@@ -23,8 +31,8 @@ macro_rules! functions {
             /// The library keeps to the C types of the standard.
             unsafe fn of(library: &Loaded) -> Self {
                 Self {
-                    // SAFETY: the type is the one that the standard gives to the name.
-                    $($field: unsafe { library.get::<f::$type>($name) }.ok().map(|symbol| *symbol),)*
+                    // SAFETY: by the contract above, with the type that the standard gives to the name.
+                    $($field: unsafe { get(library, &symbols::$symbol) },)*
                 }
             }
         }
@@ -32,31 +40,31 @@ macro_rules! functions {
 }
 
 functions! {
-    get_version: GetVersion = "fmi2GetVersion";
-    get_types_platform: GetTypesPlatform = "fmi2GetTypesPlatform";
-    set_debug_logging: SetDebugLogging = "fmi2SetDebugLogging";
-    instantiate: Instantiate = "fmi2Instantiate";
-    free_instance: FreeInstance = "fmi2FreeInstance";
-    setup_experiment: SetupExperiment = "fmi2SetupExperiment";
-    enter_initialization_mode: EnterInitializationMode = "fmi2EnterInitializationMode";
-    exit_initialization_mode: ExitInitializationMode = "fmi2ExitInitializationMode";
-    terminate: Terminate = "fmi2Terminate";
-    reset: Reset = "fmi2Reset";
-    get_real: GetReal = "fmi2GetReal";
-    get_integer: GetInteger = "fmi2GetInteger";
-    get_boolean: GetBoolean = "fmi2GetBoolean";
-    get_string: GetString = "fmi2GetString";
-    set_real: SetReal = "fmi2SetReal";
-    set_integer: SetInteger = "fmi2SetInteger";
-    set_boolean: SetBoolean = "fmi2SetBoolean";
-    set_string: SetString = "fmi2SetString";
-    do_step: DoStep = "fmi2DoStep";
-    get_state: GetFmuState = "fmi2GetFMUstate";
-    set_state: SetFmuState = "fmi2SetFMUstate";
-    free_state: FreeFmuState = "fmi2FreeFMUstate";
-    state_size: SerializedFmuStateSize = "fmi2SerializedFMUstateSize";
-    serialize: SerializeFmuState = "fmi2SerializeFMUstate";
-    deserialize: DeSerializeFmuState = "fmi2DeSerializeFMUstate";
+    get_version: GetVersion = GET_VERSION;
+    get_types_platform: GetTypesPlatform = GET_TYPES_PLATFORM;
+    set_debug_logging: SetDebugLogging = SET_DEBUG_LOGGING;
+    instantiate: Instantiate = INSTANTIATE;
+    free_instance: FreeInstance = FREE_INSTANCE;
+    setup_experiment: SetupExperiment = SETUP_EXPERIMENT;
+    enter_initialization_mode: EnterInitializationMode = ENTER_INITIALIZATION_MODE;
+    exit_initialization_mode: ExitInitializationMode = EXIT_INITIALIZATION_MODE;
+    terminate: Terminate = TERMINATE;
+    reset: Reset = RESET;
+    get_real: GetReal = GET_REAL;
+    get_integer: GetInteger = GET_INTEGER;
+    get_boolean: GetBoolean = GET_BOOLEAN;
+    get_string: GetString = GET_STRING;
+    set_real: SetReal = SET_REAL;
+    set_integer: SetInteger = SET_INTEGER;
+    set_boolean: SetBoolean = SET_BOOLEAN;
+    set_string: SetString = SET_STRING;
+    do_step: DoStep = DO_STEP;
+    get_state: GetFmuState = GET_FMU_STATE;
+    set_state: SetFmuState = SET_FMU_STATE;
+    free_state: FreeFmuState = FREE_FMU_STATE;
+    state_size: SerializedFmuStateSize = SERIALIZED_FMU_STATE_SIZE;
+    serialize: SerializeFmuState = SERIALIZE_FMU_STATE;
+    deserialize: DeSerializeFmuState = DE_SERIALIZE_FMU_STATE;
 }
 
 /// The library in this process. It is never unloaded: some FMUs leave threads and exit handlers behind.

@@ -3,7 +3,8 @@
 use std::ffi::{CStr, c_char, c_void};
 use std::sync::{Mutex, PoisonError};
 
-use fmi2_abi::{CallbackLogger, Fmi2CallbackFunctions, Fmi2ComponentEnvironment, Fmi2String, RawStatus};
+use fmi2_abi::callbacks::{calloc, free, variadic};
+use fmi2_abi::{Fmi2CallbackFunctions, Fmi2ComponentEnvironment, Fmi2String, RawStatus};
 
 /// Messages kept; what comes after them says no more.
 const KEPT: usize = 1000;
@@ -42,21 +43,13 @@ impl Sink {
 
     pub(super) fn callbacks(&self, offered: Offered) -> Fmi2CallbackFunctions {
         Fmi2CallbackFunctions {
-            logger: offered.logger.then(variadic),
+            logger: offered.logger.then(|| variadic(log)),
             allocate_memory: offered.memory.then_some(calloc),
             free_memory: offered.memory.then_some(free),
             step_finished: None,
             component_environment: std::ptr::from_ref(self).cast_mut().cast::<c_void>(),
         }
     }
-}
-
-/// [`log`] under the variadic type of the standard.
-fn variadic() -> CallbackLogger {
-    type Fixed = unsafe extern "C" fn(Fmi2ComponentEnvironment, Fmi2String, RawStatus, Fmi2String, Fmi2String);
-    // SAFETY: both are function pointers of one size. Where FMI names a platform, named arguments of a variadic call travel as
-    // those of any other, and the caller takes the rest away; so a function that reads the named ones only does for both.
-    unsafe { std::mem::transmute::<Fixed, CallbackLogger>(log) }
 }
 
 /// # Safety
@@ -91,10 +84,4 @@ pub(super) unsafe fn text(pointer: *const c_char) -> String {
     }
     // SAFETY: by the contract above.
     unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned()
-}
-
-// SAFETY: as the C standard library declares them.
-unsafe extern "C" {
-    fn calloc(count: usize, size: usize) -> *mut c_void;
-    fn free(memory: *mut c_void);
 }

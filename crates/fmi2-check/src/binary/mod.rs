@@ -1,5 +1,6 @@
 //! The library at work. It may crash, hang, exit and change what belongs to its process, so every trial is made by a process of
 //! its own, which keeps a journal of what it calls and finds.
+#![allow(unsafe_code, reason = "the library under test is C")]
 
 mod instance;
 mod job;

@@ -5,7 +5,8 @@ use std::ffi::{CStr, CString, c_char, c_void};
 use std::ptr;
 use std::sync::Mutex;
 
-use fmi2_export::abi::{CallbackLogger, Fmi2CallbackFunctions, Fmi2Component, Fmi2FmuState, Fmi2Status, RawStatus};
+use fmi2_export::abi::callbacks::variadic;
+use fmi2_export::abi::{Fmi2CallbackFunctions, Fmi2Component, Fmi2FmuState, Fmi2Status, RawStatus};
 use fmi2_export::{Model, guid};
 
 use crate::probe::{Probe, fmi2};
@@ -56,14 +57,10 @@ unsafe extern "C" fn journal(
     }
 }
 
-/// The five fixed arguments are all that messages of this crate come with, so a function of five arguments can take them: on
-/// the platforms of these tests, fixed arguments of a variadic call are passed like those of any other.
+/// Messages of this crate come finished, so the named arguments are all that there is to read.
 pub fn callbacks(journal_of_host: &Journal) -> Fmi2CallbackFunctions {
-    type Fixed = unsafe extern "C" fn(*mut c_void, *const c_char, RawStatus, *const c_char, *const c_char);
-    // SAFETY: see above.
-    let logger = unsafe { std::mem::transmute::<Fixed, CallbackLogger>(journal) };
     Fmi2CallbackFunctions {
-        logger: Some(logger),
+        logger: Some(variadic(journal)),
         allocate_memory: None,
         free_memory: None,
         step_finished: None,

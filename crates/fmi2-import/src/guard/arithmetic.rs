@@ -21,13 +21,14 @@ impl Arithmetic {
     }
 
     pub(super) fn put_back(self) {
-        // SAFETY: the value was read from the same register, so it is one that the register takes.
-        unsafe { std::arch::asm!("ldmxcsr [{}]", in(reg) &raw const self.sse, options(nostack, preserves_flags)) };
+        // SAFETY: the value was read from the same register, so it is one that the register takes. Exception flags are among what is
+        // put back, so nothing is said of flags that stay.
+        unsafe { std::arch::asm!("ldmxcsr [{}]", in(reg) &raw const self.sse, options(nostack)) };
         if Self::now().x87 != self.x87 {
             // What is pending would be raised by the next instruction that waits, if it was unmasked.
             // SAFETY: as above; clearing exceptions touches nothing else.
             unsafe {
-                std::arch::asm!("fnclex", "fldcw [{}]", in(reg) &raw const self.x87, options(nostack, preserves_flags));
+                std::arch::asm!("fnclex", "fldcw [{}]", in(reg) &raw const self.x87, options(nostack));
             }
         }
     }
@@ -54,10 +55,10 @@ impl Arithmetic {
     }
 
     pub(super) fn put_back(self) {
-        // SAFETY: the values were read from the same registers.
+        // SAFETY: the values were read from the same registers. The status is one of flags, so nothing is said of flags that stay.
         unsafe {
-            std::arch::asm!("msr fpcr, {}", in(reg) self.control, options(nostack, preserves_flags));
-            std::arch::asm!("msr fpsr, {}", in(reg) self.status, options(nostack, preserves_flags));
+            std::arch::asm!("msr fpcr, {}", in(reg) self.control, options(nostack));
+            std::arch::asm!("msr fpsr, {}", in(reg) self.status, options(nostack));
         }
     }
 }

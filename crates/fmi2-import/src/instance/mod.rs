@@ -1,4 +1,5 @@
 //! A running instance behind safe methods.
+#![allow(unsafe_code, reason = "calls functions of a C library")]
 
 mod states;
 mod values;

@@ -1,4 +1,5 @@
 //! The callbacks an FMU is given: a logger that collects messages, and memory functions.
+#![allow(unsafe_code, reason = "a C library calls in with pointers")]
 
 mod references;
 mod sink;
@@ -7,6 +8,9 @@ use std::borrow::Cow;
 use std::ffi::{CStr, c_char, c_void};
 
 use encoding_rs::WINDOWS_1252;
+#[cfg(not(formatted_log))]
+use fmi2_abi::callbacks::variadic;
+use fmi2_abi::callbacks::{calloc, free};
 use fmi2_abi::{CallbackLogger, Fmi2CallbackFunctions, Fmi2String, RawStatus};
 
 pub use sink::LogMessage;
@@ -65,13 +69,8 @@ fn logger() -> CallbackLogger {
 }
 
 /// [`plain`] under the variadic type that the standard asks for, where no C compiler was found.
-///
-/// The only place where the two types meet. Stable Rust can call a C-variadic function but not define one, so the
-/// function takes the five named arguments and ignores what follows.
 #[cfg(not(formatted_log))]
 fn logger() -> CallbackLogger {
-    type FixedLogger = unsafe extern "C" fn(*mut c_void, Fmi2String, RawStatus, Fmi2String, Fmi2String);
-
     /// Keeps one message as it came, but for its doubled percent signs.
     ///
     /// # Safety
@@ -92,10 +91,7 @@ fn logger() -> CallbackLogger {
         }
     }
 
-    // SAFETY: both are C function pointers of the same size. In the C calling conventions of the platforms FMI names (x86-64
-    // and AArch64, System V, Apple and Windows; cdecl on 32-bit x86) the named arguments of a variadic call travel as
-    // in a fixed call and the caller removes the others, so a callee that reads the named ones only works for both.
-    unsafe { std::mem::transmute::<FixedLogger, CallbackLogger>(plain) }
+    variadic(plain)
 }
 
 impl Environment {
@@ -133,11 +129,4 @@ pub(crate) unsafe fn text(pointer: *const c_char) -> String {
     let text = std::str::from_utf8(bytes).map(Cow::Borrowed);
     text.unwrap_or_else(|_| WINDOWS_1252.decode_without_bom_handling(bytes).0)
         .into_owned()
-}
-
-// The standard asks for zeroed memory that `freeMemory` takes back: the C library's own pair.
-// SAFETY: the declarations match the C standard library, which `std` links on every platform with shared libraries.
-unsafe extern "C" {
-    fn calloc(count: usize, size: usize) -> *mut c_void;
-    fn free(memory: *mut c_void);
 }

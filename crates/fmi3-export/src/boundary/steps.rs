@@ -22,16 +22,21 @@ pub unsafe fn do_step<M: Exported<Fmi3>>(
     unsafe {
         call::<Fmi3, M>(instance, &order::DO_STEP, |instance| {
             let never = [
-                memory::place("eventHandlingNeeded", event_handling_needed)?,
-                memory::place("terminateSimulation", terminate_simulation)?,
-                memory::place("earlyReturn", early_return)?,
+                ("eventHandlingNeeded", event_handling_needed),
+                ("terminateSimulation", terminate_simulation),
+                ("earlyReturn", early_return),
             ];
-            let last = memory::place("lastSuccessfulTime", last_successful_time)?;
-            let answer = instance.do_step(t, h);
-            for flag in never {
-                flag.write(boolean(false));
+            let last = ("lastSuccessfulTime", last_successful_time);
+            // A host may give one place for all that it does not read, so each is borrowed for a moment only.
+            for (name, flag) in never {
+                memory::place(name, flag)?;
             }
-            last.write(instance.time());
+            memory::place(last.0, last.1)?;
+            let answer = instance.do_step(t, h);
+            for (name, flag) in never {
+                memory::place(name, flag)?.write(boolean(false));
+            }
+            memory::place(last.0, last.1)?.write(instance.time());
             answer
         })
     }

@@ -81,6 +81,8 @@ enum Linker {
 struct Target {
     /// Its names: the first whose standard library is installed, else the first, with a standard library built for it.
     names: &'static [&'static str],
+    /// What FMI 3.0 calls it.
+    fmi3: &'static str,
     /// Version of glibc that is linked against, as cargo-zigbuild takes it.
     glibc: &'static str,
     linker: Linker,
@@ -106,27 +108,74 @@ impl Platform {
 
     /// Its library is made of those for all of these.
     fn targets(self) -> Vec<Target> {
-        let target = |names, glibc, linker| Target { names, glibc, linker };
+        let target = |names, fmi3, glibc, linker| Target {
+            names,
+            fmi3,
+            glibc,
+            linker,
+        };
         match self {
-            Self::Linux64 => vec![target(&["x86_64-unknown-linux-gnu"], ".2.17", Linker::Zig)],
-            Self::Aarch64Linux => vec![target(&["aarch64-unknown-linux-gnu"], ".2.17", Linker::Zig)],
+            Self::Linux64 => vec![target(
+                &["x86_64-unknown-linux-gnu"],
+                "x86_64-linux",
+                ".2.17",
+                Linker::Zig,
+            )],
+            Self::Aarch64Linux => vec![target(
+                &["aarch64-unknown-linux-gnu"],
+                "aarch64-linux",
+                ".2.17",
+                Linker::Zig,
+            )],
             // The first asks for nothing that came after Windows 7, the second for Windows 10.
             Self::Win64 => vec![target(
                 &["x86_64-win7-windows-gnu", "x86_64-pc-windows-gnu"],
+                "x86_64-windows",
                 "",
                 Linker::Mingw,
             )],
             Self::Darwin64 => vec![
-                target(&["x86_64-apple-darwin"], "", Linker::Zig),
-                target(&["aarch64-apple-darwin"], "", Linker::Zig),
+                target(&["x86_64-apple-darwin"], "x86_64-darwin", "", Linker::Zig),
+                target(&["aarch64-apple-darwin"], "aarch64-darwin", "", Linker::Zig),
             ],
         }
     }
 }
 
+/// What libraries were built for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct RunsOn {
+    /// Folder of FMI 2.0.
+    pub(crate) fmi2: &'static str,
+    /// Folder of FMI 3.0.
+    pub(crate) fmi3: &'static str,
+    /// Name of the compiler's target; `None` for that of this machine.
+    pub(crate) target: Option<&'static str>,
+}
+
+/// What this program runs on, as FMI 3.0 calls it.
+const HERE: &str = if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+    "x86_64-linux"
+} else if cfg!(all(target_os = "macos", target_arch = "x86_64")) {
+    "x86_64-darwin"
+} else if cfg!(all(target_os = "macos", target_arch = "aarch64")) {
+    "aarch64-darwin"
+} else if cfg!(all(target_os = "windows", target_arch = "x86_64")) {
+    "x86_64-windows"
+} else if cfg!(all(target_os = "windows", target_arch = "aarch64")) {
+    "aarch64-windows"
+} else {
+    // As FMI 2.0 has it, which knows no name of its own for others.
+    PLATFORM
+};
+
 /// A call of cargo that gives one library of each FMU.
 #[derive(Debug)]
 pub(crate) struct Call {
+    /// What it is for.
+    pub(crate) target: Option<&'static str>,
+    /// The same as FMI 3.0 calls it.
+    pub(crate) fmi3: &'static str,
     /// Cargo, or what stands before it.
     pub(crate) program: String,
     /// What it is asked for, without packages.
@@ -156,6 +205,8 @@ pub(crate) fn recipes(platforms: &BTreeSet<Platform>) -> Result<Vec<Recipe>, Har
             folder: PLATFORM,
             suffix: LIBRARY_SUFFIX,
             calls: vec![Call {
+                target: None,
+                fmi3: HERE,
                 program: cargo(),
                 arguments: vec!["build".to_owned(), "--release".to_owned()],
                 environment: Vec::new(),
@@ -219,6 +270,17 @@ struct Compiler {
     sysroot: PathBuf,
 }
 
+impl Recipe {
+    /// What its library runs on.
+    pub(crate) fn built(&self) -> impl Iterator<Item = RunsOn> {
+        self.calls.iter().map(|call| RunsOn {
+            fmi2: self.folder,
+            fmi3: call.fmi3,
+            target: call.target,
+        })
+    }
+}
+
 impl Compiler {
     fn here() -> Self {
         let program = env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
@@ -273,6 +335,8 @@ impl Compiler {
             }
         };
         Call {
+            target: Some(name),
+            fmi3: target.fmi3,
             program,
             arguments,
             environment,
@@ -344,6 +408,7 @@ mod tests {
         };
         let target = Target {
             names: &["one-target", "another-target"],
+            fmi3: "one",
             glibc: "",
             linker: Linker::Mingw,
         };
