@@ -51,6 +51,7 @@ impl Model for NavModel {
             resolved: Vec::new(),
             inputs: Signals::default(),
             command: Command::default(),
+            mission: String::new(),
             navigator: None,
             prediction: OnceLock::new(),
         }
@@ -64,7 +65,7 @@ impl Model for NavModel {
         packed_guid(own, resources)
     }
 
-    fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError> {
+    fn initialise(&mut self, experiment: &Experiment, _log: &mut Log<'_>) -> Result<(), ModelError> {
         let navigation = self.choice.mission()?.navigation();
         self.settings.filter = self.chosen()?;
         let mut navigator = Navigator::new(&navigation, &self.settings, experiment.start_time)?;
@@ -73,13 +74,16 @@ impl Model for NavModel {
         self.navigator = Some(navigator);
         self.prediction = OnceLock::new();
         self.resolved = self.settings.resolved(&navigation)?;
-        log.event(format_args!(
-            "filter {} in mission {} starts at t = {} s",
-            self.settings.filter()?.name,
-            navigation.mission,
-            experiment.start_time
-        ));
+        self.mission = navigation.mission;
         Ok(())
+    }
+
+    fn initialised(&self, experiment: &Experiment, log: &mut Log<'_>) {
+        let filter = self.settings.filter().map_or("", |filter| filter.name);
+        log.event(format_args!(
+            "filter {filter} in mission {} starts at t = {} s",
+            self.mission, experiment.start_time
+        ));
     }
 
     fn check_step(&self, _t: f64, h: f64) -> Result<(), ModelError> {

@@ -24,6 +24,8 @@ pub struct NavModel {
     pub inputs: Signals,
     /// Commands as set, likewise.
     pub command: Command,
+    /// Name of the mission, from initialization on.
+    pub mission: String,
     /// The filter, from initialization on.
     pub navigator: Option<Navigator>,
     /// Its prediction, once somebody has asked for it since the last step: it costs a time update, and many masters never ask.

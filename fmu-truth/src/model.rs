@@ -52,8 +52,16 @@ impl Model for TruthModel {
         packed_guid(own, resources)
     }
 
-    fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError> {
+    fn initialise(&mut self, experiment: &Experiment, _log: &mut Log<'_>) -> Result<(), ModelError> {
         let simulation = Simulation::new(&self.params, experiment.start_time, &self.inputs)?;
+        self.signals.nav_init = std::array::from_fn(|i| simulation.initial_estimate()[i]);
+        show(&mut self.signals, simulation.sample());
+        self.simulation = Some(simulation);
+        Ok(())
+    }
+
+    fn initialised(&self, experiment: &Experiment, log: &mut Log<'_>) {
+        let Some(simulation) = &self.simulation else { return };
         log.event(format_args!(
             "mission {}, seed {}, run {} starts at t = {} s with {} scheduled events",
             simulation.mission(),
@@ -65,14 +73,12 @@ impl Model for TruthModel {
         for note in simulation.notes() {
             log.event(format_args!("note: {note}"));
         }
-        self.signals.nav_init = std::array::from_fn(|i| simulation.initial_estimate()[i]);
-        show(&mut self.signals, simulation.sample());
-        self.simulation = Some(simulation);
-        Ok(())
     }
 
     fn check_step(&self, t: f64, h: f64) -> Result<(), ModelError> {
-        self.simulation.as_ref().map_or(Ok(()), |s| Ok(s.check(t + h, &self.inputs)?))
+        self.simulation
+            .as_ref()
+            .map_or(Ok(()), |s| Ok(s.check(t + h, &self.inputs)?))
     }
 
     fn do_step(&mut self, t: f64, h: f64, _log: &mut Log<'_>) -> Result<(), ModelError> {

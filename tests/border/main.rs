@@ -1,7 +1,7 @@
 //! The C functions of both FMUs as no careful host would call them: a million resets, a hundred thousand lives and a million calls
 //! in any order with any arguments. Memory stays flat, nothing panics, and an instance beside all that gives the same bits.
 //!
-//! `ENDURANCE_PERCENT` sets how much of that is done: 2 where it is not set, 100 in `.ci/full`. `ENDURANCE_SEED` chooses the calls.
+//! `BORDER_PERCENT` sets how much of that is done: 2 where it is not set, 100 in `.ci/full`. `BORDER_SEED` chooses the calls.
 
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
@@ -38,7 +38,7 @@ fn setting(name: &str, otherwise: f64) -> f64 {
 
 /// The part of `whole` that this run does.
 fn share(whole: u64) -> u64 {
-    (whole as f64 * setting("ENDURANCE_PERCENT", 2.0) / 100.0) as u64
+    (whole as f64 * setting("BORDER_PERCENT", 2.0) / 100.0) as u64
 }
 
 /// Most that memory may grow in all cycles after the first tenth, bytes: of the heap what the test itself may keep meanwhile, of
@@ -151,7 +151,7 @@ fn a_hundred_thousand_lives_keep_memory_flat() {
 fn a_million_hostile_calls_do_no_harm() {
     let _alone = alone();
     let calls = share(1_000_000);
-    let seed = setting("ENDURANCE_SEED", 1.0) as u64;
+    let seed = setting("BORDER_SEED", 1.0) as u64;
     let libraries = [&*TRUTH, &*NAV];
     let witnesses = libraries.map(|library| {
         let component = library.instance();

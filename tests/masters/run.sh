@@ -68,7 +68,7 @@ if command -v valgrind >/dev/null; then
             "$test" --test-threads 1 "${@:2}"
     }
     watched lifecycle a_damaged_state mistakes_are_refused a_model_that_cannot
-    ENDURANCE_PERCENT=2 watched border a_million_hostile_calls
+    BORDER_PERCENT=2 watched border a_million_hostile_calls
 else
     skipped valgrind valgrind
 fi

@@ -1,8 +1,8 @@
 """Compares what host.c wrote on each platform, bit for bit, and writes the table into a page.
 
-    same.py PAGE STEPS NAME=OUTPUTS NAME=OUTPUTS...
+    same.py PAGE STEPS NAME=OUTPUTS NAME=OUTPUTS... [NAME=]...
 
-The first is what the others are held against. Fails where one differs.
+The first is what the others are held against; one without outputs could not be run here. Fails where one differs.
 """
 
 import re
@@ -23,7 +23,9 @@ def cases(file):
 
 def main():
     page, steps = Path(sys.argv[1]), sys.argv[2]
-    names, files = zip(*(argument.split("=", 1) for argument in sys.argv[3:]))
+    given = [argument.split("=", 1) for argument in sys.argv[3:]]
+    names, files = zip(*((name, file) for name, file in given if file))
+    missing = [name for name, file in given if not file]
     first, *others = map(cases, files)
     flown = {case: seen for case, seen in first.items() if seen[1] <= 1}
     if not flown or not others:
@@ -34,9 +36,12 @@ def main():
         differences += [f"{name} in {mission}: {n} differs from {names[0]}" for n, e in zip(names[1:], equal) if not e]
         if (name, mission) in flown:
             rows.setdefault(name, []).append(equal)
-    head = f"| filter | missions | {' | '.join(names[1:])} |\n|---|---|{'---|' * len(others)}\n"
+    columns = [*names[1:], *missing]
+    head = f"| filter | missions | {' | '.join(columns)} |\n|---|---|{'---|' * len(columns)}\n"
     lines = [
-        f"| `{name}` | {len(equal)} | " + " | ".join("equal" if all(e) else f"{sum(e)} equal" for e in zip(*equal)) + " |\n"
+        f"| `{name}` | {len(equal)} | " + " | ".join(
+            [*("equal" if all(e) else f"{sum(e)} equal" for e in zip(*equal)), *("not run" for _ in missing)]
+        ) + " |\n"
         for name, equal in rows.items()
     ]
     values = sum(len(outputs) // 16 for outputs, _ in flown.values())

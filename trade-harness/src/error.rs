@@ -376,6 +376,12 @@ pub enum HarnessError {
         /// Name of the library target.
         target: String,
     },
+    /// A crate has no identifier of its build.
+    #[error("cargo told no FMU_GUID of {name}: its build.rs must call `build_identity::tell_cargo`")]
+    NoIdentifier {
+        /// Crate and model name.
+        name: &'static str,
+    },
     /// The packed FMU cannot be instantiated.
     #[error(
         "{name} does not start from its modelDescription.xml; if its variables have changed, render the file anew with 'UPDATE_GOLDEN=1 cargo test -p {name}'"

@@ -116,6 +116,8 @@ impl CallError {
     pub fn status(&self) -> Status {
         match self {
             Self::OfVersion { status, .. } => *status,
+            // Nothing has changed, and another step may be taken: less than an error, after which a host has to give up.
+            Self::Instance(InstanceError::StepRefused(_)) => Status::Discard,
             _ => Status::Error,
         }
     }

@@ -69,13 +69,29 @@ impl<V: Version, M: Model> Instance<V, M> {
 
     // Life cycle.
 
-    pub(crate) fn set_debug_logging(&mut self, logging_on: bool, categories: &[&str]) -> Answer {
-        let categories = categories
-            .iter()
-            .map(|name| Category::from_name(name).ok_or_else(|| unknown_category(name)))
-            .collect::<Result<Vec<_>, _>>()?;
-        self.logger.want(logging_on, &categories);
-        Ok(Status::Ok)
+    pub(crate) fn set_debug_logging(&mut self, function: &Function, logging_on: bool, categories: &[&str]) -> Answer {
+        let known: Vec<Category> = categories.iter().filter_map(|name| Category::from_name(name)).collect();
+        // Those of the standard that this FMU has no use for are no reason to give the simulation up.
+        let all_known = known.len() == categories.len();
+        if all_known || !known.is_empty() {
+            self.logger.want(logging_on, &known);
+        }
+        Ok(if all_known {
+            Status::Ok
+        } else {
+            self.not_known(function, categories)
+        })
+    }
+
+    /// Tells which categories are unknown.
+    fn not_known(&self, function: &Function, categories: &[&str]) -> Status {
+        let unknown = categories.iter().filter(|name| Category::from_name(name).is_none());
+        let error = CallError::UnknownCategory {
+            given: unknown.copied().collect::<Vec<_>>().join("', '"),
+            known: Category::ALL.map(Category::name).join(", "),
+        };
+        self.explain(Status::Warning, function, &error.to_string());
+        Status::Warning
     }
 
     /// Takes the times of the simulation.
@@ -198,12 +214,5 @@ impl<V: Version, M: Model> Instance<V, M> {
     pub(crate) fn set_state(&mut self, state: &Snapshot<M>) -> Answer {
         self.model.set_state(state.clone());
         Ok(Status::Ok)
-    }
-}
-
-fn unknown_category(given: &str) -> CallError {
-    CallError::UnknownCategory {
-        given: given.to_owned(),
-        known: Category::ALL.map(Category::name).join(", "),
     }
 }

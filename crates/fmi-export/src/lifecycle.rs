@@ -140,7 +140,7 @@ pub unsafe fn set_debug_logging<V: Version, M: Exported<V>>(
                 .iter()
                 .map(|category| memory::text("categories", *category))
                 .collect::<Result<Vec<_>, _>>()?;
-            instance.set_debug_logging(logging_on, &categories)
+            instance.set_debug_logging(function, logging_on, &categories)
         })
     }
 }

@@ -137,6 +137,9 @@ pub enum InstanceError {
     /// The model does not take such a step.
     #[error("the model does not take this step")]
     StepRefused(#[source] ModelError),
+    /// Something was asked for in initialization that the model cannot compute from the values it has now; others may follow.
+    #[error("the model cannot initialise with the values that it has so far")]
+    NotYet(#[source] ModelError),
     /// The model could not initialise or step; the instance is in [`Phase::Failed`] now.
     #[error("the model failed, and only a reset or an earlier state helps")]
     Model(#[source] ModelError),

@@ -9,7 +9,7 @@ use crate::check::{Checked, check_settable, finite};
 use crate::error::InstanceError;
 use crate::log::Log;
 use crate::lookup::Lookup;
-use crate::model::{Experiment, Model};
+use crate::model::{Experiment, Model, ModelError};
 use crate::phase::Phase;
 use crate::snapshot::Snapshot;
 use crate::variable::Scalar;
@@ -106,7 +106,7 @@ impl<M: Model> Instance<M> {
     pub fn enter_initialization(&mut self, log: &mut Log<'_>) -> Result<(), InstanceError> {
         self.state.phase = Phase::Initialization;
         self.state.stale = true;
-        self.refresh(log)
+        self.refresh(log).map_err(|error| self.fail(error))
     }
 
     /// Initialization ends; if a variable was set since the model initialised, it does so once more.
@@ -114,9 +114,15 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// [`InstanceError::Model`].
     pub fn exit_initialization(&mut self, log: &mut Log<'_>) -> Result<(), InstanceError> {
-        self.refresh(log)?;
+        self.refresh(log).map_err(|error| self.fail(error))?;
+        self.state.model.initialised(&self.state.experiment, log);
         self.state.phase = Phase::StepComplete;
         Ok(())
+    }
+
+    fn fail(&mut self, error: ModelError) -> InstanceError {
+        self.state.phase = Phase::Failed;
+        InstanceError::Model(error)
     }
 
     /// The simulation is over.
@@ -132,16 +138,12 @@ impl<M: Model> Instance<M> {
     }
 
     /// Lets the model initialise if a variable was set since it last did.
-    fn refresh(&mut self, log: &mut Log<'_>) -> Result<(), InstanceError> {
+    fn refresh(&mut self, log: &mut Log<'_>) -> Result<(), ModelError> {
         let state = &mut self.state;
-        if state.phase != Phase::Initialization || !state.stale {
-            return Ok(());
+        if state.phase == Phase::Initialization && state.stale {
+            state.model.initialise(&state.experiment, log)?;
+            state.stale = false;
         }
-        if let Err(error) = state.model.initialise(&state.experiment, log) {
-            state.phase = Phase::Failed;
-            return Err(InstanceError::Model(error));
-        }
-        state.stale = false;
         Ok(())
     }
 
@@ -150,7 +152,7 @@ impl<M: Model> Instance<M> {
     /// Hands the value of each entry to `put`, with its place in `references`.
     ///
     /// # Errors
-    /// [`InstanceError::UnknownReference`], [`InstanceError::WrongType`] or, in initialization, [`InstanceError::Model`].
+    /// [`InstanceError::UnknownReference`], [`InstanceError::WrongType`] or, in initialization, [`InstanceError::NotYet`].
     pub fn get<T: Scalar>(
         &mut self,
         references: &[u32],
@@ -174,7 +176,7 @@ impl<M: Model> Instance<M> {
         for number in entries.clone() {
             lookup.entry(number)?;
         }
-        self.refresh(log)?;
+        self.refresh(log).map_err(InstanceError::NotYet)?;
         for (place, number) in entries.enumerate() {
             let (entry, access) = lookup.entry(number)?;
             put(place, access.read(&self.state.model, entry.element));
@@ -234,13 +236,10 @@ impl<M: Model> Instance<M> {
         if (t - expected).abs() > 1e-9 * t.abs().max(1.0) + 1e-6 * h {
             return Err(InstanceError::TimeMismatch { t, expected });
         }
-        let state = &mut self.state;
-        state.model.check_step(t, h).map_err(InstanceError::StepRefused)?;
-        if let Err(error) = state.model.do_step(t, h, log) {
-            state.phase = Phase::Failed;
-            return Err(InstanceError::Model(error));
-        }
-        state.time = t + h;
+        let model = &mut self.state.model;
+        model.check_step(t, h).map_err(InstanceError::StepRefused)?;
+        model.do_step(t, h, log).map_err(|error| self.fail(error))?;
+        self.state.time = t + h;
         Ok(())
     }
 

@@ -45,8 +45,12 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + Sync + 'static {
     /// left behind.
     ///
     /// # Errors
-    /// Any error puts the instance into the failed phase; only a reset or an earlier state brings it back.
+    /// When initialization begins or ends, any error puts the instance into the failed phase; only a reset or an earlier state brings it
+    /// back. Before a get, it refuses the get: a host may set one element of an array after the other and look in between.
     fn initialise(&mut self, experiment: &Experiment, log: &mut Log<'_>) -> Result<(), ModelError>;
+
+    /// Called once when initialization has ended: the place to say what begins.
+    fn initialised(&self, _experiment: &Experiment, _log: &mut Log<'_>) {}
 
     /// Says why a step from `t` to `t + h` (s) cannot be taken, before any is begun: one that is longer than the model can compute
     /// in reasonable time, or one with inputs that make no sense.

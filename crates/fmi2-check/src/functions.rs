@@ -12,7 +12,11 @@ pub(crate) struct Group {
 
 const STATES: Group = Group {
     flag: Some("canGetAndSetFMUstate"),
-    names: &[symbols::GET_FMU_STATE.name, symbols::SET_FMU_STATE.name, symbols::FREE_FMU_STATE.name],
+    names: &[
+        symbols::GET_FMU_STATE.name,
+        symbols::SET_FMU_STATE.name,
+        symbols::FREE_FMU_STATE.name,
+    ],
 };
 const SERIALIZATION: Group = Group {
     flag: Some("canSerializeFMUstate"),

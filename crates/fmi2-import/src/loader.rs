@@ -1,5 +1,4 @@
 //! Loading a shared library by its path, for whoever runs one that is an FMU's.
-#![allow(unsafe_code, reason = "loading a library runs its code")]
 #![allow(unsafe_code, reason = "loading runs the initializers of a library")]
 
 use std::path::Path;

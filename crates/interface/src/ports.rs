@@ -51,10 +51,12 @@ impl Shape {
 pub enum Role {
     /// An output of the truth and an input of the filter.
     Sensor,
-    /// An input of the truth that a filter may be told of, too.
-    Announced,
-    /// An input of the truth alone.
+    /// An input of the truth that a filter may be told of, too: what the chaser is commanded to do.
     Command,
+    /// An input of the truth alone that pushes the target.
+    Disturbance,
+    /// An input of the truth alone: how the chaser is to be turned.
+    Attitude,
     /// An output of the truth that no filter may see.
     Truth,
     /// An output of the truth, as of the newest sample, that a bound is told of and every other filter passes by.
@@ -220,7 +222,7 @@ const fn rows(
 
 use Kind::{Boolean, Enumeration, Integer, Real};
 use Part::{Innovation, Measured, Variance};
-use Role::{Announced, Command, Estimate, Sensor, Truth, Untold};
+use Role::{Attitude, Command, Disturbance, Estimate, Sensor, Truth, Untold};
 use Shape::{Matrix, Scalar, Vector};
 
 /// Units of the 18 states, by groups of three.
@@ -237,17 +239,17 @@ const COVARIANCE: &[&str] = &[
 /// Every port.
 #[rustfmt::skip]
 pub const PORTS: &[Port] = &[
-    row(Announced, "a_cmd_c_n", Real, Vector(3), &["m/s2"],
+    row(Command, "a_cmd_c_n", Real, Vector(3), &["m/s2"],
         &["extra acceleration of the chaser, axes N; acts from the communication point at which it is set for as long as it stays, and the accelerometer feels it"]),
-    row(Announced, "impulse_c_n", Real, Vector(3), &["m/s"],
+    row(Command, "impulse_c_n", Real, Vector(3), &["m/s"],
         &["change of the chaser's velocity, axes N, made at once at each change of impulse_count; a mean of the accelerometer has it, a reading of the instant has not"]),
-    row(Announced, "impulse_count", Integer, Scalar, &[],
+    row(Command, "impulse_count", Integer, Scalar, &[],
         &["ordinal of that change; its value after initialization is where counting begins"]),
-    row(Command, "a_dist_t_n", Real, Vector(3), &["m/s2"],
+    row(Disturbance, "a_dist_t_n", Real, Vector(3), &["m/s2"],
         &["extra acceleration of the target, axes N; acts as a_cmd_c_n does"]),
-    row(Command, "f_dist_t_bt", Real, Vector(3), &["N"],
+    row(Disturbance, "f_dist_t_bt", Real, Vector(3), &["N"],
         &["extra force on the target, its body axes, against its mass, as of a vent by mass flow and exhaust velocity; acts as a_cmd_c_n does"]),
-    row(Command, "dcm_cmd_bc_n", Real, Matrix(3, 3), &["1"],
+    row(Attitude, "dcm_cmd_bc_n", Real, Matrix(3, 3), &["1"],
         &["attitude that the chaser holds: direction cosine matrix from axes N to its body axes; all 0: the mission's own"]),
 
     row(Sensor, "sample_time", Real, Scalar, &["s"], &["epoch of the newest sensor sample; 0 before the first"]),

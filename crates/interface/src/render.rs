@@ -11,18 +11,21 @@ use crate::status::Status;
 /// The interface document: every port, its unit, shape and meaning, statuses and scenarios.
 pub fn interface_document() -> String {
     let mut out = String::from(INTERFACE_HEAD);
-    for (role, title) in [
-        (Role::Sensor, "From fmu-truth to fmu-nav"),
-        (Role::Untold, "From fmu-truth to the bounds among fmu-nav's filters"),
+    for (roles, title) in [
+        (&[Role::Sensor][..], "From fmu-truth to fmu-nav"),
+        (&[Role::Untold], "From fmu-truth to the bounds among fmu-nav's filters"),
         (
-            Role::Announced,
+            &[Role::Command],
             "Into fmu-truth, and into fmu-nav where the filter shall know",
         ),
-        (Role::Command, "Into fmu-truth alone"),
-        (Role::Truth, "From fmu-truth, for scoring"),
-        (Role::Estimate, "From fmu-nav"),
+        (&[Role::Disturbance, Role::Attitude], "Into fmu-truth alone"),
+        (&[Role::Truth], "From fmu-truth, for scoring"),
+        (&[Role::Estimate], "From fmu-nav"),
     ] {
-        let rows = of(role).map(|port| vec![elements(port), kind(port), units(port), meaning(port)]);
+        let rows = roles
+            .iter()
+            .flat_map(|role| of(*role))
+            .map(|port| vec![elements(port), kind(port), units(port), meaning(port)]);
         section(&mut out, title, &["name", "type", "unit", "meaning"], rows);
     }
     let rows = Status::ALL

@@ -188,7 +188,7 @@ fn drive(system: &mut System, id: SlaveId, truth: SlaveId, driver: &Participant)
 
 /// Tells a filter what a driver commands the chaser to do, as far as it asks.
 fn announce(system: &mut System, driver: SlaveId, filter: SlaveId) -> Result<(), StudyError> {
-    let commands = |name: &str| ports::of(Role::Announced).any(|port| name.split('[').next() == Some(port.name));
+    let commands = |name: &str| ports::of(Role::Command).any(|port| name.split('[').next() == Some(port.name));
     let open = system.unconnected_inputs().into_iter();
     let asked: Vec<String> = open
         .filter(|open| open.slave == filter && commands(&open.input))

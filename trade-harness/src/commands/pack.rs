@@ -4,8 +4,8 @@ use super::out::Out;
 use super::shared::Verdict;
 use crate::HarnessError;
 use crate::cli::PackArgs;
-use crate::pack::{default_folder, pack_for};
 use crate::pack::platforms::chosen;
+use crate::pack::{default_folder, pack_for};
 
 pub(super) fn pack(args: &PackArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.workspace));

@@ -75,7 +75,10 @@ mod tests {
         });
         let twin = files(&archive, &built, b"three".to_vec());
         let native = files(&archive, &built[1..], b"three".to_vec());
-        assert!(!native.contains_key("binaries/aarch64-darwin/m.dylib"), "built for one processor");
+        assert!(
+            !native.contains_key("binaries/aarch64-darwin/m.dylib"),
+            "built for one processor"
+        );
         let expected = [
             ("binaries/aarch64-darwin/m.dylib", "apple"),
             ("binaries/aarch64-linux/m.so", "small penguin"),

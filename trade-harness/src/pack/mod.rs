@@ -102,7 +102,7 @@ pub fn pack_for(
             target: identifier.to_owned(),
         };
         let libraries = built.libraries.get(identifier).ok_or_else(no_library)?;
-        let guid = built.guids.get(name).ok_or_else(no_library)?;
+        let guid = built.guids.get(name).ok_or(HarnessError::NoIdentifier { name })?;
         let committed = workspace.join("modelDescription").join(name);
         let description = committed.join("modelDescription.xml");
         let inside = world.as_ref().zip(resources.get(&packed_mission()));

@@ -26,19 +26,19 @@ const TERMINALS: [Terminal; 5] = [
         name: "commands",
         rule: "bus",
         about: "accelerations and impulses of the chaser: from guidance to the world, and to a filter that is to know of them",
-        has: |port| port.role == Role::Announced,
+        has: |port| port.role == Role::Command,
     },
     Terminal {
         name: "attitude",
         rule: "bus",
         about: "attitude that the chaser is to hold: from guidance to the world",
-        has: |port| port.role == Role::Command && !is_disturbance(port),
+        has: |port| port.role == Role::Attitude,
     },
     Terminal {
         name: "disturbances",
         rule: "bus",
         about: "what pushes the target and nobody announces: from life support to the world",
-        has: |port| port.role == Role::Command && is_disturbance(port),
+        has: |port| port.role == Role::Disturbance,
     },
     Terminal {
         name: "estimate",
@@ -47,10 +47,6 @@ const TERMINALS: [Terminal; 5] = [
         has: |port| port.role == Role::Estimate,
     },
 ];
-
-fn is_disturbance(port: &Port) -> bool {
-    port.name.contains("_dist_")
-}
 
 /// Whether an FMU has this port as an input or output.
 fn offers(d: &ModelDescription, port: &Port) -> bool {

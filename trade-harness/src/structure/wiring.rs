@@ -67,7 +67,7 @@ fn is_shared(name: &str) -> bool {
 
 /// Whether a name is that of a command, which a study tells a filter that asks for it.
 fn is_announced(name: &str) -> bool {
-    port_of(name).is_some_and(|port| port.role == ports::Role::Announced)
+    port_of(name).is_some_and(|port| port.role == ports::Role::Command)
 }
 
 /// The parts of a study, with their names for what crosses between them.
@@ -268,7 +268,7 @@ fn connect(parts: &mut [Part<'_>], connection: &FlatConnection) -> Result<(), Pr
             Some("in a study a filter acts on the world through a driver alone; put one between them".to_owned())
         }
         (Role::Driver, Role::Filter) => {
-            let commands: Vec<&str> = ports::of(ports::Role::Announced).map(|port| port.name).collect();
+            let commands: Vec<&str> = ports::of(ports::Role::Command).map(|port| port.name).collect();
             Some(format!(
                 "in a study a driver tells a filter no more than the commands that the world has from it, {}; take the connection away",
                 commands.join(", ")

@@ -29,7 +29,6 @@ impl Surroundings {
         let mut found: Vec<(&'static Rule, String)> = Vec::new();
         if self.folder != now.folder {
             let path = |f: &Option<PathBuf>| f.as_ref().map_or("nowhere".to_owned(), |f| f.display().to_string());
-            // The folders of a trial differ from run to run.
             found.push((
                 &rules::FOLDER,
                 format!("the working directory is now {}", path(&now.folder)),

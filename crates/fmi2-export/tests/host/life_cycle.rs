@@ -12,7 +12,7 @@ use crate::probe::{
     WARNS, fmi2,
 };
 
-use Fmi2Status::{Error, Fatal, Ok as Fine, Warning};
+use Fmi2Status::{Discard, Error, Fatal, Ok as Fine, Warning};
 
 /// What `fmi2Instantiate` logs when it must answer null.
 #[track_caller]
@@ -283,8 +283,10 @@ fn steps_of_any_size_are_taken_past_the_stop_time_and_must_be_gapless() {
         ),
         ((10001.1, 1.1 * LONGEST_STEP), "the model does not take this step"),
     ] {
-        assert_eq!(host.do_step(t, h), Error);
-        let reason = host.reason(Error);
+        // What the model does not take it may take otherwise; what the times forbid is a mistake.
+        let expected = if part.starts_with("the model") { Discard } else { Error };
+        assert_eq!(host.do_step(t, h), expected);
+        let reason = host.reason(expected);
         assert!(reason.contains(part), "{reason}");
         assert_eq!(host.bytes().unwrap(), before);
     }

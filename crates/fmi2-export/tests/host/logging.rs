@@ -90,11 +90,21 @@ fn a_message_is_a_format_without_conversions_under_the_instance_name() {
 }
 
 #[test]
-fn an_unknown_category_changes_nothing() {
+fn an_unknown_category_is_told_and_the_others_are_taken() {
     let host = Host::new();
-    assert_eq!(host.set_debug_logging(1, &[c"logEvents", c"logWeather"]), Error);
+    assert_eq!(host.set_debug_logging(1, &[c"logAll"]), Fine);
+    assert_eq!(host.set_debug_logging(1, &[c"logWeather"]), Warning);
+    let all = Host::new();
+    assert_eq!(all.set_debug_logging(1, &[c"logAll"]), Fine);
+    let told = host.messages().len();
+    assert_eq!(run(&host).len() - told, run(&all).len(), "nothing has changed");
+    let host = Host::new();
     assert_eq!(
-        host.reason(Error),
+        host.set_debug_logging(1, &[c"logStatusWarning", c"logWeather"]),
+        Warning
+    );
+    assert_eq!(
+        host.reason(Warning),
         "fmi2SetDebugLogging: unknown log category 'logWeather', known are: logStatusWarning, \
          logStatusDiscard, logStatusError, logStatusFatal, logEvents, logAll"
     );

@@ -21,7 +21,10 @@
 //!
 //! On other systems than Unix only arithmetic and the working directory are put back, on other processors than x86-64 and AArch64
 //! no arithmetic.
-#![allow(unsafe_code, reason = "registers, signals, locale and folder of the process are read and put back by C functions")]
+#![allow(
+    unsafe_code,
+    reason = "registers, signals, locale and folder of the process are read and put back by C functions"
+)]
 
 mod arithmetic;
 mod directory;

@@ -33,7 +33,7 @@ pub unsafe fn set_debug_logging<M: Exported<Fmi3>>(
 }
 
 /// Answers null for a wrong token, an empty name, a faulty definition, or what there is not (an event mode, intermediate updates), and
-/// says which to the logger. Visibility is not used, steps never return early, and a resource path that is no folder of this machine is
+/// says which to the logger if logging is on. Visibility is not used, steps never return early, and a resource path that is no folder of this machine is
 /// taken as none.
 #[allow(clippy::too_many_arguments, reason = "those of the standard")]
 pub unsafe fn instantiate_co_simulation<M: Exported<Fmi3>>(
