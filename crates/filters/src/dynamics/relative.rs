@@ -1,11 +1,11 @@
 //! What dynamics of the relative state in the target's LVLH frame offer: rho, rho_dot and d, nine states, SI.
 
 use super::acceleration::AccelerationModel;
+use super::transition::Flow;
 use crate::error::FilterError;
 use crate::state::{Target, TargetMatrix};
 use astro::TargetOrbit;
 use nalgebra::{Matrix3, Vector3};
-use numerics::expm;
 
 /// Motion of a chaser about its target, LVLH.
 pub(crate) trait RelativeMotion {
@@ -45,15 +45,8 @@ pub(super) fn transition(
     acceleration: AccelerationModel,
     dt: f64,
 ) -> TargetMatrix {
-    let mut a = TargetMatrix::zeros();
-    a.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
-    a.fixed_view_mut::<3, 3>(3, 0).copy_from(&partials.0);
-    a.fixed_view_mut::<3, 3>(3, 3).copy_from(&partials.1);
-    if acceleration != AccelerationModel::Absent {
-        a.fixed_view_mut::<3, 3>(3, 6).fill_with_identity();
-        a.fixed_view_mut::<3, 3>(6, 6).fill_diagonal(-acceleration.decay());
-    }
-    expm(&(a * dt))
+    let third = acceleration != AccelerationModel::Absent;
+    Flow::new(&partials.0, &partials.1, acceleration.decay(), dt).nine(third, dt)
 }
 
 /// Three of the nine states.

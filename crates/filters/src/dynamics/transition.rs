@@ -109,23 +109,42 @@ impl Flow {
         }
     }
 
-    /// The same by the exponential of the whole.
+    /// exp(A t) whole, 9x9.
+    ///
+    /// * `third`: whether the third acts on the velocity, M = I or nothing.
+    pub(super) fn nine(&self, third: bool, t: f64) -> TargetMatrix {
+        let mut f = TargetMatrix::identity();
+        let mut set = |i: usize, j: usize, block: &Matrix3<f64>| f.fixed_view_mut::<3, 3>(i, j).copy_from(block);
+        let identity = Matrix3::identity();
+        set(0, 0, &(identity + self.rr));
+        set(0, 3, &(identity * t + self.rv));
+        set(3, 0, &self.vr);
+        set(3, 3, &(identity + self.vv));
+        if third {
+            set(0, 6, &self.by_third[0]);
+            set(3, 6, &self.by_third[1]);
+            set(6, 6, &(identity * self.decay));
+        }
+        f
+    }
+
+    /// The same by the exponential of the whole, with t as the unit of time: entries are then of one size, and squarings few.
     fn scaled(by_r: &Matrix3<f64>, by_v: &Matrix3<f64>, k: f64, t: f64) -> Self {
         let mut a = TargetMatrix::zeros();
         a.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
-        a.fixed_view_mut::<3, 3>(3, 0).copy_from(by_r);
-        a.fixed_view_mut::<3, 3>(3, 3).copy_from(by_v);
+        a.fixed_view_mut::<3, 3>(3, 0).copy_from(&(by_r * (t * t)));
+        a.fixed_view_mut::<3, 3>(3, 3).copy_from(&(by_v * t));
         a.fixed_view_mut::<3, 3>(3, 6).fill_with_identity();
-        a.fixed_view_mut::<3, 3>(6, 6).fill_diagonal(-k);
-        let f = expm(&(a * t));
+        a.fixed_view_mut::<3, 3>(6, 6).fill_diagonal(-k * t);
+        let f = expm(&a);
         let block = |i: usize, j: usize| f.fixed_view::<3, 3>(3 * i, 3 * j).into_owned();
         let identity = Matrix3::identity();
         Self {
             rr: block(0, 0) - identity,
-            rv: block(0, 1) - identity * t,
-            vr: block(1, 0),
+            rv: (block(0, 1) - identity) * t,
+            vr: block(1, 0) / t,
             vv: block(1, 1) - identity,
-            by_third: [block(0, 2), block(1, 2)],
+            by_third: [block(0, 2) * (t * t), block(1, 2) * t],
             decay: f[(6, 6)],
         }
     }
@@ -302,4 +321,142 @@ fn times<const K: usize>(columns: &[[f64; 6]; K], by: &[f64; K]) -> [f64; 6] {
         }
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+    use numerics::{Source, stream};
+    use rand_distr::{Distribution, StandardNormal};
+
+    /// Partials by position and by velocity.
+    type Partials = (Matrix3<f64>, Matrix3<f64>);
+
+    /// A of Eq. (5) for both vehicles, 18x18.
+    fn whole(target: &Partials, chaser: &Partials, k: [f64; 2], third: &Matrix3<f64>) -> StateMatrix {
+        let mut a = StateMatrix::zeros();
+        let mut set = |i: usize, j: usize, block: &Matrix3<f64>| a.fixed_view_mut::<3, 3>(i, j).copy_from(block);
+        let identity = Matrix3::identity();
+        set(0, 3, &identity);
+        set(3, 0, &target.0);
+        set(3, 3, &target.1);
+        set(3, 6, &identity);
+        set(3, 9, &(target.0 - chaser.0));
+        set(3, 12, &(target.1 - chaser.1));
+        set(3, 15, &-third);
+        set(6, 6, &(identity * -k[0]));
+        set(9, 12, &identity);
+        set(12, 9, &chaser.0);
+        set(12, 12, &chaser.1);
+        set(12, 15, third);
+        set(15, 15, &(identity * -k[1]));
+        a
+    }
+
+    fn of_parts(target: &Partials, chaser: &Partials, k: [f64; 2], third: &Matrix3<f64>, t: f64) -> Transition {
+        let flow = |of: &Partials, k: f64| Flow::new(&of.0, &of.1, k, t);
+        Transition::new(&flow(target, k[0]), &flow(chaser, k[1]), Some(third), t)
+    }
+
+    /// Fields of a low orbit and of a three-body problem at its nearest to the Moon, for two vehicles a kilometre apart.
+    fn fields() -> [(Partials, Partials); 2] {
+        let zonal = |r: Vector3<f64>| (astro::earth::FILTER.gradient(&r), Matrix3::zeros());
+        let system = astro::Cr3bpSystem::EARTH_MOON;
+        let near_moon = Vector3::new(3.79e8, 2.1e6, -3.0e6);
+        let low = Vector3::new(5.0e6, 4.2e6, 2.0e6);
+        let apart = Vector3::new(600.0, -700.0, 400.0);
+        [
+            (zonal(low + apart), zonal(low)),
+            (system.partials(&(near_moon + apart)), system.partials(&near_moon)),
+        ]
+    }
+
+    #[test]
+    fn parts_are_the_exponential_of_the_whole() {
+        let third = nalgebra::Rotation3::from_euler_angles(0.3, -1.1, 2.0).into_inner() * -1.0;
+        for (target, chaser) in fields() {
+            for t in [0.02, 1.0, 30.0, 170.0, 900.0] {
+                for k in [[0.0, 0.0], [1e-5, 1.0 / 3600.0], [0.02, 0.14], [0.9, 1.1], [7.0, 60.0]] {
+                    let ours = of_parts(&target, &chaser, k, &third, t).dense();
+                    // In units of t, in which nothing is large but the decay.
+                    let unit = |i: usize| t.powi([0, -1, -2][(i / 3) % 3]);
+                    let of_units = |m: StateMatrix, to: bool| {
+                        StateMatrix::from_fn(|i, j| m[(i, j)] * if to { unit(j) / unit(i) } else { unit(i) / unit(j) })
+                    };
+                    let expected = expm(&of_units(whole(&target, &chaser, k, &third) * t, true));
+                    let expected = of_units(expected, false);
+                    // Squaring a matrix of a large exponent costs the reference digits: eps times the exponent.
+                    let size = 1.0 + k[0].max(k[1]) * t;
+                    for (part, rows) in [("position", 0..3), ("velocity", 3..6), ("third", 6..9)] {
+                        let of = |m: &StateMatrix| {
+                            let rows = rows.clone().chain(rows.clone().map(|i| i + 9));
+                            rows.flat_map(|i| m.row(i).iter().copied().collect::<Vec<_>>())
+                                .collect::<Vec<_>>()
+                        };
+                        let (ours, expected) = (of(&ours), of(&expected));
+                        let scale = expected.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+                        let worst = ours
+                            .iter()
+                            .zip(&expected)
+                            .fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+                        assert!(
+                            worst < 1e-14 * size * scale,
+                            "{part}, t = {t}, k = {k:?}: {worst} of {scale}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    /// The weights by the integral that they are, in Simpson's sum.
+    #[test]
+    fn weights_are_their_integrals() {
+        for z in [0.0, 1e-6, 0.3, 0.999, 1.001, 4.0, 50.0] {
+            let ours = weights(z, 8);
+            for (n, ours) in ours.iter().enumerate().take(9) {
+                let parts = 4000;
+                let sum: f64 = (0..=parts)
+                    .map(|i| {
+                        let s = f64::from(i) / f64::from(parts);
+                        let weight = [1.0, 4.0, 2.0][if i == 0 || i == parts { 0 } else { 2 - (i % 2) as usize }];
+                        weight * s.powi(n as i32) * (-z * (1.0 - s)).exp()
+                    })
+                    .sum();
+                let expected = sum / f64::from(3 * parts);
+                // Upwards, digits are lost with the order, where a term of B is lost in its sum.
+                assert!(
+                    (ours / expected - 1.0).abs() < 1e-9,
+                    "z = {z}, n = {n}: {ours} {expected}"
+                );
+            }
+        }
+    }
+
+    /// By nalgebra's products of whole matrices.
+    #[test]
+    fn carried_is_both_products() {
+        let g = &mut stream(7, 0, Source::Lidar);
+        let (target, chaser) = fields()[0];
+        let third = nalgebra::Rotation3::from_euler_angles(0.3, -1.1, 2.0).into_inner();
+        let mut f = of_parts(&target, &chaser, [0.02, 0.1], &third, 30.0);
+        let by_x = SMatrix::<f64, 3, 6>::from_fn(|_, _| StandardNormal.sample(g));
+        f.add_to_velocity(&by_x);
+        let a = StateMatrix::from_fn(|_, _| StandardNormal.sample(g));
+        let p = a * a.transpose();
+        let dense = f.dense();
+        let expected = dense * p * dense.transpose();
+        let ours = f.carried(&p);
+        assert_eq!(ours, ours.transpose());
+        for i in 0..N {
+            for j in 0..N {
+                let scale = (expected[(i, i)] * expected[(j, j)]).sqrt();
+                assert!((ours[(i, j)] - expected[(i, j)]).abs() < 1e-14 * scale, "{i} {j}");
+            }
+        }
+        assert_eq!(f.of_target(), dense.fixed_view::<9, 9>(0, 0).into_owned());
+        let once = of_parts(&target, &chaser, [0.02, 0.1], &third, 30.0).dense();
+        assert!(((dense - once).fixed_view::<3, 6>(3, 0) - by_x).amax() < 1e-14);
+    }
 }

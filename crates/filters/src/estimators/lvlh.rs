@@ -176,7 +176,7 @@ impl Estimator for LvlhState {
                 rows += learnt.by_x_over(dt);
             }
             if self.gain.is_none() {
-                core.p = spd::symmetrised(&(f * core.p * f.transpose())) + law.process_noise(dt);
+                core.p = spd::carried(&f, &core.p).1 + law.process_noise(dt);
             }
             total = f * total;
             t += dt;
