@@ -7,6 +7,16 @@ pub fn symmetrised<const N: usize>(m: &SMatrix<f64, N, N>) -> SMatrix<f64, N, N>
     (m + m.transpose()) * 0.5
 }
 
+/// Copies what is below the diagonal above it.
+pub fn mirror<const N: usize>(m: &mut SMatrix<f64, N, N>) {
+    let columns = &mut m.data.0;
+    for j in 1..N {
+        for i in 0..j {
+            columns[j][i] = columns[i][j];
+        }
+    }
+}
+
 /// B S^-1 from the lower Cholesky factor L of S: a Kalman gain from P H^T.
 ///
 /// Whole columns of B are worked on, which for a tall B is several times as fast as nalgebra's solutions for the columns of B^T.
@@ -59,7 +69,7 @@ pub fn carried<const R: usize, const N: usize>(
             }
         }
     }
-    fpf.fill_upper_triangle_with_lower_triangle();
+    mirror(&mut fpf);
     (fp, fpf)
 }
 

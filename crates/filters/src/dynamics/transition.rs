@@ -30,7 +30,7 @@
 
 use crate::state::{N, N_TARGET, StateMatrix, TargetMatrix};
 use nalgebra::{Matrix3, SMatrix};
-use numerics::{expm, math};
+use numerics::{expm, math, spd};
 
 /// Above this, the series would need more terms than it has; a scaled one is taken, which a step of any sample never needs.
 const LARGE: f64 = 0.25;
@@ -257,18 +257,14 @@ impl Transition {
         f
     }
 
-    /// F P F^T, 18x18, symmetric to the bit.
-    ///
-    /// * `p`: 18x18, symmetric.
-    pub fn carried(&self, p: &StateMatrix) -> StateMatrix {
-        let p = &p.data.0;
+    /// Takes a covariance P, 18x18, symmetric, to F P F^T, symmetric to the bit.
+    pub fn carry(&self, p: &mut StateMatrix) {
         let [e_a, e_b] = self.decay;
+        let to = &mut p.data.0;
         // What comes from the left, by columns of P: all 18 of the first row, those of the chaser of the third.
-        let relative: [[f64; 6]; N] = std::array::from_fn(|j| times(&self.relative, &p[j]));
-        let chaser: [[f64; 6]; 9] = std::array::from_fn(|j| times(&self.chaser, below(&p[N_TARGET + j])));
-        let mut out = StateMatrix::zeros();
-        let to = &mut out.data.0;
-        // The lower triangle, by columns: first r_tc and v_tc.
+        let relative: [[f64; 6]; N] = std::array::from_fn(|j| times(&self.relative, &to[j]));
+        let chaser: [[f64; 6]; 9] = std::array::from_fn(|j| times(&self.chaser, below(&to[N_TARGET + j])));
+        // Then the lower triangle, column by column; what is still asked for of P is of the same column.
         for j in 0..6 {
             let by: [f64; N] = std::array::from_fn(|k| self.relative[k][j]);
             to[j][..6].copy_from_slice(&times(&relative, &by));
@@ -279,14 +275,14 @@ impl Transition {
             let of_chaser: [f64; 9] = std::array::from_fn(|k| relative[N_TARGET + k][j]);
             to[j][9..15].copy_from_slice(&times(&self.chaser, &of_chaser));
         }
-        for j in 6..9 {
-            for i in 6..9 {
-                to[j][i] = e_a * e_a * p[j][i];
-                to[j][9 + i] = e_a * e_b * p[j][9 + i];
+        for column in &mut to[6..9] {
+            let of_chaser = times(&self.chaser, below(column));
+            for i in 0..3 {
+                column[6 + i] *= e_a * e_a;
+                column[15 + i] *= e_a * e_b;
             }
-            let of_chaser = times(&self.chaser, below(&p[j]));
-            for (i, value) in of_chaser.iter().enumerate() {
-                to[j][9 + i] = e_a * value;
+            for (value, carried) in column[9..15].iter_mut().zip(of_chaser) {
+                *value = e_a * carried;
             }
         }
         for j in 0..6 {
@@ -296,13 +292,12 @@ impl Transition {
                 to[9 + j][15 + axis] = chaser[6 + axis][j] * e_b;
             }
         }
-        for j in 15..18 {
-            for i in 15..18 {
-                to[j][i] = e_b * e_b * p[j][i];
+        for column in &mut to[15..] {
+            for value in &mut column[15..] {
+                *value *= e_b * e_b;
             }
         }
-        out.fill_upper_triangle_with_lower_triangle();
-        out
+        spd::mirror(p);
     }
 }
 
@@ -436,7 +431,7 @@ mod tests {
 
     /// By nalgebra's products of whole matrices.
     #[test]
-    fn carried_is_both_products() {
+    fn carrying_is_both_products() {
         let g = &mut stream(7, 0, Source::Lidar);
         let (target, chaser) = fields()[0];
         let third = nalgebra::Rotation3::from_euler_angles(0.3, -1.1, 2.0).into_inner();
@@ -447,7 +442,8 @@ mod tests {
         let p = a * a.transpose();
         let dense = f.dense();
         let expected = dense * p * dense.transpose();
-        let ours = f.carried(&p);
+        let mut ours = p;
+        f.carry(&mut ours);
         assert_eq!(ours, ours.transpose());
         for i in 0..N {
             for j in 0..N {

@@ -150,7 +150,7 @@ impl TwoVehicles {
             learnt.act(&mut est.x, dt);
             f.add_to_velocity(&learnt.by_x_over(dt));
         }
-        est.p = f.carried(&est.p);
+        f.carry(&mut est.p);
         self.add_process_noise(&mut est.p, q_target, dt);
         f.of_target()
     }

@@ -6,7 +6,7 @@ use crate::innovation::Innovation;
 use crate::laws::{Adaptation, Step};
 use crate::sample::Sample;
 use crate::state::{State, TargetMatrix};
-use nalgebra::{SMatrix, Vector6};
+use nalgebra::{SMatrix, SVector, Vector6};
 
 /// Mean, covariance and standard deviations, SI, as in [`crate::Estimate`].
 pub(crate) struct Reported {
@@ -99,18 +99,15 @@ impl Gap {
     }
 }
 
-/// The first thing wrong with a mean and the variances of a covariance.
-pub(super) fn defect<'a>(
-    x: impl IntoIterator<Item = &'a f64>,
-    p: impl IntoIterator<Item = &'a f64>,
-    variances: impl IntoIterator<Item = f64>,
-    t_s: f64,
-) -> Option<FilterError> {
-    if !x.into_iter().chain(p).all(|v| v.is_finite()) {
+/// The first thing wrong with a mean and a covariance.
+pub(super) fn defect<const D: usize>(x: &SVector<f64, D>, p: &SMatrix<f64, D, D>, t_s: f64) -> Option<FilterError> {
+    // All of them, so that several are looked at at once.
+    let finite = |values: &[f64]| values.iter().fold(true, |all, v| all & v.is_finite());
+    if !(finite(x.as_slice()) & finite(p.as_slice())) {
         return Some(FilterError::NotFinite { t_s });
     }
     // Zero is legal: a law without an acceleration state has no variance there.
-    let negative = variances.into_iter().position(|v| v < 0.0);
+    let negative = (0..D).find(|i| p[(*i, *i)] < 0.0);
     negative.map(|i| FilterError::NegativeVariance { t_s, state: i + 1 })
 }
 

@@ -277,6 +277,6 @@ impl Estimator for LvlhState {
 
     fn defect(&self, t_s: f64) -> Option<FilterError> {
         let core = self.core.as_ref()?;
-        defect(core.x.iter(), core.p.iter(), core.p.diagonal().iter().copied(), t_s)
+        defect(&core.x, &core.p, t_s)
     }
 }

@@ -14,7 +14,7 @@ use crate::innovation::Innovation;
 use crate::laws::{Adaptation, Step};
 use crate::layout::Layout;
 use crate::sample::{NOT_A_ROTATION, Sample};
-use crate::state::{MAX_ROWS, N, RowVector, State, StateMatrix, TargetMatrix, idx};
+use crate::state::{MAX_ROWS, N, N_TARGET, RowVector, State, StateMatrix, TargetMatrix, idx};
 use crate::units::Units;
 use crate::update::kalman::{self, Gaussian, Measurement, NotSpd};
 use astro::relative_axes::{AxesN, Reference};
@@ -242,24 +242,30 @@ impl InertialState {
     ///
     /// Slopes go with the inverse of the range: a move by less than a twentieth of it leaves them right to 5 %, and no pass follows.
     ///
-    /// * `core`: the estimate after the first pass.
-    fn relinearise(&self, core: &mut Gaussian, prior: &State, sample: &Sample, step: &Step) -> Result<(), FilterError> {
-        let mut from = *prior;
+    /// * returns: the estimate after the last pass; `None` where the first was enough.
+    fn relinearised(&self, prior: &State, sample: &Sample, step: &Step) -> Result<Option<Gaussian>, FilterError> {
+        let (Some(start), Some(first)) = (&self.before, &self.core) else {
+            return Ok(None);
+        };
+        let (mut from, mut to, mut last) = (*prior, first.x, None);
         for _ in 0..self.passes {
-            let (before, after) = (part(&from, idx::R_TC), part(&core.x, idx::R_TC));
+            let (before, after) = (part(&from, idx::R_TC), part(&to, idx::R_TC));
             let near = before.norm().min(after.norm());
-            let Some(start) = self.core.as_ref().filter(|_| (after - before).norm() > near / 20.0) else {
+            // A distance that is no number is not large either.
+            let far = (after - before).norm() > near / 20.0;
+            if !far {
                 break;
-            };
-            from = core.x;
+            }
+            from = to;
             let mut stack = self.measured(&from, sample)?;
             // From where the prior is: z - h(x) - H (x_prior - x).
             stack.innovation += stack.h * (from - prior);
             let (mut again, mut unused) = (start.clone(), step.clone());
             update_all(&mut again, &stack, &mut unused).map_err(|e| e.at(sample.time))?;
-            *core = again;
+            to = again.x;
+            last = Some(again);
         }
-        Ok(())
+        Ok(last)
     }
 
     /// The relative state in the LVLH axes of the estimated target.
@@ -474,15 +480,19 @@ impl Estimator for InertialState {
             accelerometer.take(sample);
         }
         let stack = self.measured(&prior, sample)?;
-        let Some(mut core) = self.core.clone() else {
+        self.before.clone_from(&self.core);
+        let Some(core) = &mut self.core else {
             return Ok(None);
         };
         step.p_prior.copy_from(&core.p.fixed_view::<9, 9>(0, 0));
-        let nis = update_all(&mut core, &stack, step).map_err(|e| e.at(sample.time))?;
+        let nis = update_all(core, &stack, step).map_err(|e| e.at(sample.time))?;
         step.linear = (core.x - prior).fixed_rows::<9>(0).into_owned();
-        if stack.target_rows > 0 {
-            self.relinearise(&mut core, &prior, sample, step)?;
+        if stack.target_rows > 0
+            && let Some(again) = self.relinearised(&prior, sample, step)?
+        {
+            self.core = Some(again);
         }
+        let Some(core) = &self.core else { return Ok(None) };
         for (row, place) in stack.places[..stack.target_rows].iter().enumerate() {
             step.measured.mark(*place..place + 1);
             step.innovation[*place] = stack.innovation[row];
@@ -492,7 +502,6 @@ impl Estimator for InertialState {
         }
         step.correction = (core.x - prior).fixed_rows::<9>(0).into_owned();
         step.p_post.copy_from(&core.p.fixed_view::<9, 9>(0, 0));
-        self.before = self.core.replace(core);
         if stack.target_rows == 0 {
             return Ok(None);
         }
@@ -543,18 +552,19 @@ impl Estimator for InertialState {
         if let Some(learnt) = law.disturbance() {
             x.fixed_rows_mut::<3>(idx::A_T.start).copy_from(&learnt.d);
         }
-        let mut p = core.p;
+        let mut p: TargetMatrix = core.p.fixed_view::<9, 9>(0, 0).into_owned();
         stand_in(&mut p, law, since);
+        let variance = |i: usize| if i < N_TARGET { p[(i, i)] } else { core.p[(i, i)] };
         Reported {
             x: x.component_mul(&unit),
             p_target: TargetMatrix::from_fn(|i, j| p[(i, j)] * unit[i] * unit[j]),
-            sigma: State::from_fn(|i, _| p[(i, i)].sqrt() * unit[i]),
+            sigma: State::from_fn(|i, _| variance(i).sqrt() * unit[i]),
         }
     }
 
     fn defect(&self, t_s: f64) -> Option<FilterError> {
         let core = self.core.as_ref()?;
-        defect(core.x.iter(), core.p.iter(), core.p.diagonal().iter().copied(), t_s)
+        defect(&core.x, &core.p, t_s)
     }
 }
 

@@ -95,7 +95,7 @@ pub fn update<const M: usize, const D: usize>(
         }
         s[(i, i)] += m.r[i];
     }
-    s.fill_upper_triangle_with_lower_triangle();
+    spd::mirror(&mut s);
     let factor = s.cholesky().ok_or(NotSpd {
         min_diagonal: s.diagonal().min(),
     })?;
@@ -107,7 +107,7 @@ pub fn update<const M: usize, const D: usize>(
     let rest = u - k * s;
     take(&mut est.p, &k, &u);
     take(&mut est.p, &rest, &k);
-    est.p.fill_upper_triangle_with_lower_triangle();
+    spd::mirror(&mut est.p);
     Ok(Innovated { s, factor })
 }
 
@@ -127,13 +127,28 @@ fn by_rows<const M: usize, const D: usize>(h: &SMatrix<f64, M, D>, p: &SMatrix<f
     u
 }
 
-/// Takes A B^T away from P, D x D; whole columns, of which only what is below the diagonal means something.
+/// Takes A B^T away from P, D x D, on and below the diagonal; what is above it comes by mirroring.
+///
+/// By parts of columns whose length is known, each held while it gathers what every measurement takes.
 fn take<const M: usize, const D: usize>(p: &mut SMatrix<f64, D, D>, a: &SMatrix<f64, D, M>, b: &SMatrix<f64, D, M>) {
+    const PART: usize = 6;
     for (j, column) in p.data.0.iter_mut().enumerate() {
-        for (from, by) in a.data.0.iter().zip(&b.data.0) {
-            let by = by[j];
-            for (value, from) in column.iter_mut().zip(from) {
-                *value -= from * by;
+        let (parts, rest) = column.as_chunks_mut::<PART>();
+        let first = parts.len().min(j / PART);
+        for (k, part) in parts.iter_mut().enumerate().skip(first) {
+            let mut sum = *part;
+            for m in 0..M {
+                let (from, by) = (&a.data.0[m].as_chunks::<PART>().0[k], b.data.0[m][j]);
+                for (value, from) in sum.iter_mut().zip(from) {
+                    *value -= from * by;
+                }
+            }
+            *part = sum;
+        }
+        let done = D - rest.len();
+        for (i, value) in rest.iter_mut().enumerate() {
+            for m in 0..M {
+                *value -= a.data.0[m][done + i] * b.data.0[m][j];
             }
         }
     }
