@@ -396,7 +396,7 @@ mod tests {
                             .zip(&expected)
                             .fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
                         assert!(
-                            worst < 1e-14 * size * scale,
+                            worst <= 1e-14 * size * scale,
                             "{part}, t = {t}, k = {k:?}: {worst} of {scale}"
                         );
                     }

@@ -96,8 +96,8 @@ fn an_unknown_category_is_told_and_the_others_are_taken() {
     assert_eq!(host.set_debug_logging(1, &[c"logWeather"]), Warning);
     let all = Host::new();
     assert_eq!(all.set_debug_logging(1, &[c"logAll"]), Fine);
-    let told = host.messages().len();
-    assert_eq!(run(&host).len() - told, run(&all).len(), "nothing has changed");
+    host.messages();
+    assert_eq!(run(&host), run(&all), "nothing has changed");
     let host = Host::new();
     assert_eq!(
         host.set_debug_logging(1, &[c"logStatusWarning", c"logWeather"]),
