@@ -142,6 +142,15 @@ impl Environment {
         self.almanac.at(t)
     }
 
+    /// The same with the places of bodies from their series each time, as the reference.
+    #[cfg(test)]
+    pub(crate) fn without_pages(&self) -> Self {
+        Self {
+            almanac: self.almanac.without_pages(),
+            ..self.clone()
+        }
+    }
+
     /// Acceleration of a vehicle by all of it, axes N, m/s2.
     #[inline]
     pub(crate) fn acceleration(&self, sky: &Sky, place: &Place<'_>) -> Vector3<f64> {
