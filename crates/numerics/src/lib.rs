@@ -9,6 +9,7 @@
 
 pub mod chebyshev;
 pub mod expm;
+pub mod lanes;
 pub mod rk4;
 pub mod rotation;
 pub mod spd;

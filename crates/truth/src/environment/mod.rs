@@ -105,10 +105,15 @@ macro_rules! registry {
             #[inline]
             pub(crate) fn pull(&self, sky: &Sky, place: &Place<'_>) -> Vector3<f64> {
                 let mut sum = self.gravity.acceleration(sky, place);
-                $(if let Some(model) = &self.$name {
-                    model.pull(sky, place, &mut sum);
-                })*
+                self.pull_beside_gravity(sky, place, &mut sum);
                 sum
+            }
+
+            #[inline]
+            fn pull_beside_gravity(&self, sky: &Sky, place: &Place<'_>, sum: &mut Vector3<f64>) {
+                $(if let Some(model) = &self.$name {
+                    model.pull(sky, place, sum);
+                })*
             }
 
             /// What meets the surface of a vehicle, axes N, m/s2; its accelerometer feels it.
@@ -155,5 +160,16 @@ impl Environment {
     #[inline]
     pub(crate) fn acceleration(&self, sky: &Sky, place: &Place<'_>) -> Vector3<f64> {
         self.pull(sky, place) + self.push(sky, place)
+    }
+
+    /// The same of two vehicles, to the bit.
+    #[inline]
+    pub(crate) fn accelerations(&self, sky: &Sky, places: &[Place<'_>; 2]) -> [Vector3<f64>; 2] {
+        let mut pulls = self.gravity.accelerations(sky, places);
+        for (pull, place) in pulls.iter_mut().zip(places) {
+            self.pull_beside_gravity(sky, place, pull);
+            *pull += self.push(sky, place);
+        }
+        pulls
     }
 }

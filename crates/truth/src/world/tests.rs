@@ -204,6 +204,29 @@ fn burn_keeps_its_inertial_direction() {
     );
 }
 
+/// Both vehicles at once feel, to the bit, what either feels alone.
+#[test]
+fn vehicles_do_not_feel_that_they_are_computed_together() {
+    for (ordinal, seconds) in [(1, 5600), (2, 5400), (3, 5600)] {
+        let params = loud(ordinal, 0);
+        let world = World::new(&params.run().unwrap().mission).unwrap();
+        let push = Push::default();
+        for moment in path(&params, seconds).iter().step_by(100) {
+            let (sky, state) = (world.sky(moment.time), &moment.state);
+            let rate = world.derivative(&sky, state, &push);
+            let chaser = world.environment.acceleration(&sky, &world.chaser_place(state));
+            let (a_t, a_c) = (world.target_acceleration(&sky, state, &push), chaser);
+            let bits = |a: [Vector3<f64>; 2]| a.map(|a| a.map(f64::to_bits));
+            assert_eq!(
+                bits([rate.v_t, rate.v_c]),
+                bits([a_t, a_c]),
+                "{ordinal} at {} s",
+                moment.time
+            );
+        }
+    }
+}
+
 fn relative(moment: &Moment) -> Relative {
     moment.relative.unwrap()
 }
