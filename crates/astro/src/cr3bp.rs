@@ -5,6 +5,7 @@
 //! in these units; [`Cr3bpSystem`] knows the scales and works in SI.
 
 use nalgebra::{Matrix3, Vector3};
+use numerics::lanes::{self, Lanes};
 use numerics::rotation;
 use serde::{Deserialize, Serialize};
 
@@ -40,10 +41,20 @@ impl Cr3bp {
     ///
     /// Source: Mamich and Zanetti, Eq. (36). Deviation: its third row prints r1 and r2 without their cubes.
     pub fn acceleration(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
-        let mut a = Vector3::new(r.x + 2.0 * v.y, r.y - 2.0 * v.x, 0.0);
+        self.in_lanes([r.x, r.y, r.z], [v.x, v.y, v.z]).into()
+    }
+
+    #[inline]
+    fn in_lanes<T: Lanes>(&self, r: [T; 3], v: [T; 3]) -> [T; 3] {
+        let two = T::all(2.0);
+        let mut a = [r[0] + two * v[1], r[1] - two * v[0], T::all(0.0)];
         for (mass, place) in self.primaries() {
-            let d = r - place;
-            a -= d * (mass / d.norm().powi(3));
+            let d: [T; 3] = std::array::from_fn(|i| r[i] - T::all(place[i]));
+            let distance = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+            let strength = T::all(mass) / (distance * distance * distance);
+            for (a, d) in a.iter_mut().zip(d) {
+                *a -= d * strength;
+            }
         }
         a
     }
@@ -125,8 +136,22 @@ impl Cr3bpSystem {
     ///
     /// * `r`, `v`: position and velocity, N, m and m/s.
     pub fn acceleration(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
-        let (r_nd, v_nd) = self.to_nd(r, v);
-        self.problem.acceleration(&r_nd, &v_nd) * (self.length / (self.time * self.time))
+        self.in_lanes([r.x, r.y, r.z], [v.x, v.y, v.z]).into()
+    }
+
+    /// [`Cr3bpSystem::acceleration`] of two vehicles, to the bit.
+    pub fn accelerations(&self, r: [&Vector3<f64>; 2], v: [&Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
+        lanes::apart(self.in_lanes(lanes::beside(r), lanes::beside(v)))
+    }
+
+    #[inline]
+    fn in_lanes<T: Lanes>(&self, r: [T; 3], v: [T; 3]) -> [T; 3] {
+        let (length, per_velocity) = (T::all(self.length), T::all(self.time / self.length));
+        let unit = T::all(self.length / (self.time * self.time));
+        let a = self
+            .problem
+            .in_lanes(r.map(|x| x / length), v.map(|x| x * per_velocity));
+        a.map(|x| x * unit)
     }
 
     /// Partials of the acceleration by position, 1/s2, and by velocity, 1/s; 3x3 each.
@@ -209,6 +234,17 @@ mod tests {
             Vector3::new(0.9879, 0.01432, 0.0521),
             Vector3::new(0.07173, 0.9238, -0.8528),
         )
+    }
+
+    #[test]
+    fn two_vehicles_at_once_have_the_bits_of_either() {
+        let system = Cr3bpSystem::EARTH_MOON;
+        let (r_nd, v_nd) = near_the_moon();
+        let (r, v) = system.to_si(&r_nd, &v_nd);
+        let (r_other, v_other) = (r * -0.3, v + Vector3::new(1.0, -20.0, 300.0));
+        let alone = [system.acceleration(&r, &v), system.acceleration(&r_other, &v_other)];
+        let both = system.accelerations([&r, &r_other], [&v, &v_other]);
+        assert_eq!(both.map(|a| a.map(f64::to_bits)), alone.map(|a| a.map(f64::to_bits)));
     }
 
     #[test]

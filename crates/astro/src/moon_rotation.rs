@@ -68,17 +68,20 @@ fn elements(days: f64) -> [f64; 3] {
 ///
 /// * `days`: days since J2000.0.
 pub fn dcm_equator_icrf(days: f64) -> Matrix3<f64> {
-    let [ascension, declination, _] = elements(days);
-    let quarter = std::f64::consts::FRAC_PI_2;
-    (turned(Vector3::x_axis(), quarter - declination) * turned(Vector3::z_axis(), quarter + ascension)).into_inner()
+    equator(&elements(days))
 }
 
 /// Direction cosine matrix `dcm_f_icrf`, from the axes of the ICRF to body-fixed axes F.
 ///
 /// * `days`: days since J2000.0.
 pub fn dcm_f_icrf(days: f64) -> Matrix3<f64> {
-    let [_, _, meridian] = elements(days);
-    turned(Vector3::z_axis(), meridian).into_inner() * dcm_equator_icrf(days)
+    let elements = elements(days);
+    turned(Vector3::z_axis(), elements[2]).into_inner() * equator(&elements)
+}
+
+fn equator([ascension, declination, _]: &[f64; 3]) -> Matrix3<f64> {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    (turned(Vector3::x_axis(), quarter - declination) * turned(Vector3::z_axis(), quarter + ascension)).into_inner()
 }
 
 /// Components in axes that are turned by `angle` about `axis`.

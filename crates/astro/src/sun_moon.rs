@@ -118,7 +118,8 @@ pub fn moon(days: f64) -> Vector3<f64> {
 pub fn third_body(mu: f64, body: &Vector3<f64>, r: &Vector3<f64>) -> Vector3<f64> {
     let q = r.dot(&(r - body * 2.0)) / body.norm_squared();
     // (1 + q)^(3/2) - 1, where 1 + q = |body - r|^2 / |body|^2.
-    let f = q * (3.0 + q * (3.0 + q)) / (1.0 + math::powf(1.0 + q, 1.5));
+    let ratio = 1.0 + q;
+    let f = q * (3.0 + q * (3.0 + q)) / (1.0 + ratio * ratio.sqrt());
     (r + body * f) * (-mu / (body - r).norm().powi(3))
 }
 

@@ -1,6 +1,7 @@
 //! Gravity of a body of revolution: two-body attraction and zonal harmonics.
 
 use nalgebra::{Matrix3, Vector3};
+use numerics::lanes::{self, Lanes};
 use serde::{Deserialize, Serialize};
 
 use crate::AstroError;
@@ -90,25 +91,36 @@ impl ZonalGravity {
     /// * returns: same axes, m/s2.
     #[inline]
     pub fn acceleration(&self, r: &Vector3<f64>) -> Vector3<f64> {
-        let r2 = r.norm_squared();
-        let inv = 1.0 / r2.sqrt();
-        let u = r.z * inv;
-        let q = self.r_ref * inv;
-        let mut c = self.mu / r2 * q;
+        self.in_lanes([r.x, r.y, r.z]).into()
+    }
+
+    /// [`ZonalGravity::acceleration`] at two places, to the bit.
+    #[inline]
+    pub fn accelerations(&self, r: [&Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
+        lanes::apart(self.in_lanes(lanes::beside(r)))
+    }
+
+    #[inline]
+    fn in_lanes<T: Lanes>(&self, [x, y, z]: [T; 3]) -> [T; 3] {
+        let of = T::all;
+        let r2 = x * x + y * y + z * z;
+        let inv = of(1.0) / r2.sqrt();
+        let u = z * inv;
+        let q = of(self.r_ref) * inv;
+        let mut c = of(self.mu) / r2 * q;
         // P'_{n-1} and P'_n, starting at n = 2.
-        let (mut low, mut mid) = (1.0, 3.0 * u);
-        let (mut radial, mut axial) = (0.0, 0.0);
+        let (mut low, mut mid) = (of(1.0), of(3.0) * u);
+        let (mut radial, mut axial) = (of(0.0), of(0.0));
         for (i, j_n) in self.j.iter().enumerate() {
             let n = (i + FIRST_DEGREE) as f64;
-            let high = ((2.0 * n + 1.0) * u * mid - (n + 1.0) * low) / n;
+            let high = (of(2.0 * n + 1.0) * u * mid - of(n + 1.0) * low) / of(n);
             c *= q;
-            radial += c * j_n * high;
-            axial -= c * j_n * mid;
+            radial += c * of(*j_n) * high;
+            axial -= c * of(*j_n) * mid;
             (low, mid) = (mid, high);
         }
-        let mut a = r * ((radial - self.mu / r2) * inv);
-        a.z += axial;
-        a
+        let along = (radial - of(self.mu) / r2) * inv;
+        [x * along, y * along, z * along + axial]
     }
 
     /// Gravity gradient, the derivative of [`ZonalGravity::acceleration`] by position.
@@ -272,6 +284,15 @@ mod tests {
             ZonalGravity::new(earth::MU, earth::RADIUS, &earth::ZONALS[..3]).unwrap(),
             earth::FILTER
         );
+    }
+
+    #[test]
+    fn two_places_at_once_have_the_bits_of_either() {
+        for pair in POSITIONS.map(Vector3::from).windows(2) {
+            let alone = [0, 1].map(|i| earth::TRUTH.acceleration(&pair[i]).map(f64::to_bits));
+            let both = earth::TRUTH.accelerations([&pair[0], &pair[1]]);
+            assert_eq!(both.map(|a| a.map(f64::to_bits)), alone);
+        }
     }
 
     #[test]

@@ -1,5 +1,5 @@
-//! Small numerical tools without physics: fixed-step Runge-Kutta, the matrix exponential, symmetric positive definite
-//! helpers and seeded random streams.
+//! Small numerical tools without physics: fixed-step Runge-Kutta, the matrix exponential, Chebyshev polynomials, symmetric
+//! positive definite helpers and seeded random streams.
 //!
 //! Elementary functions come from [`math`], never from `f64`, so that every platform has the same bits.
 //!
@@ -7,12 +7,15 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+pub mod chebyshev;
 pub mod expm;
+pub mod lanes;
 pub mod rk4;
 pub mod rotation;
 pub mod spd;
 pub mod streams;
 
+pub use chebyshev::Chebyshev;
 pub use elementary as math;
 pub use expm::expm;
 pub use streams::{Generator, Source, stream};

@@ -71,12 +71,17 @@ impl World {
     /// * `push`: what acts beside the surroundings.
     #[inline]
     pub(crate) fn derivative(&self, sky: &Sky, state: &Vehicles, push: &Push) -> Vehicles {
+        let target = Place {
+            r: &state.r_t,
+            v: &state.v_t,
+            surface: &self.target.surface,
+        };
+        let [a_t, a_c] = (self.environment).accelerations(sky, &[target, self.chaser_place(state)]);
         Vehicles {
             r_t: state.v_t,
-            v_t: self.target_acceleration(sky, state, push),
+            v_t: a_t + self.push_on_target(sky.t, state, &push.target),
             r_c: state.v_c,
-            v_c: self.environment.acceleration(sky, &self.chaser_place(state))
-                + self.push_on_chaser(sky.t, state, push),
+            v_c: a_c + self.push_on_chaser(sky.t, state, push),
         }
     }
 

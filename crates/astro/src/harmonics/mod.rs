@@ -9,6 +9,7 @@ pub mod file;
 mod format;
 
 use nalgebra::{Matrix3, Vector3};
+use numerics::lanes::{self, Lanes};
 use serde::{Deserialize, Serialize};
 
 pub use coefficients::{Coefficients, EGM96, EMBEDDED, Embedded};
@@ -43,17 +44,17 @@ struct Coefficient {
 }
 
 /// One term of the sum; what is common to the degrees, mu/r, is left out.
-struct Term {
+struct Term<T> {
     /// n + m + 1: the power with which the term falls with distance when x, y, z/r are held.
     power: f64,
     /// (R/r)^n times A_nm and its first two derivatives.
-    a: [f64; 3],
+    a: [T; 3],
     /// C Re w^m + S Im w^m with w = (x + i y)/r.
-    d: f64,
+    d: T,
     /// Derivatives of `d` by x/r and y/r.
-    d_by: (f64, f64),
+    d_by: (T, T),
     /// Second derivatives of `d`: by x/r twice (by y/r twice it is the opposite), and by both.
-    d_by2: (f64, f64),
+    d_by2: (T, T),
 }
 
 /// Factor of the normalised recursion, see [`Coefficient::up`].
@@ -110,7 +111,7 @@ impl SphericalHarmonics {
     /// * returns: m2/s2.
     pub fn potential(&self, r: &Vector3<f64>) -> f64 {
         let mut sum = 0.0;
-        self.visit(r, |term| sum += term.a[0] * term.d);
+        self.visit(&[r.x, r.y, r.z], |term| sum += term.a[0] * term.d);
         self.field.mu() / r.norm() * sum
     }
 
@@ -119,18 +120,29 @@ impl SphericalHarmonics {
     /// * `r`: position, body-fixed, m.
     /// * returns: same axes, m/s2.
     pub fn acceleration(&self, r: &Vector3<f64>) -> Vector3<f64> {
-        let dist = r.norm();
-        let e = r / dist;
-        let mut direct = Vector3::zeros();
-        let mut radial = 0.0;
-        self.visit(r, |term| {
+        self.in_lanes([r.x, r.y, r.z]).into()
+    }
+
+    /// [`SphericalHarmonics::acceleration`] at two places, to the bit.
+    pub fn accelerations(&self, r: [&Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
+        lanes::apart(self.in_lanes(lanes::beside(r)))
+    }
+
+    #[inline]
+    fn in_lanes<T: Lanes>(&self, r: [T; 3]) -> [T; 3] {
+        let dist = norm(&r);
+        let e = r.map(|component| component / dist);
+        let mut direct = [T::all(0.0); 3];
+        let mut radial = T::all(0.0);
+        self.visit(&r, |term| {
             let [a, slope, _] = term.a;
-            direct.x += a * term.d_by.0;
-            direct.y += a * term.d_by.1;
-            direct.z += slope * term.d;
-            radial += (term.power * a + e.z * slope) * term.d;
+            direct[0] += a * term.d_by.0;
+            direct[1] += a * term.d_by.1;
+            direct[2] += slope * term.d;
+            radial += (T::all(term.power) * a + e[2] * slope) * term.d;
         });
-        (direct - e * radial) * (self.field.mu() / (dist * dist))
+        let scale = T::all(self.field.mu()) / (dist * dist);
+        std::array::from_fn(|i| (direct[i] - e[i] * radial) * scale)
     }
 
     /// Gravity gradient, the derivative of [`SphericalHarmonics::acceleration`] by position.
@@ -149,7 +161,7 @@ impl SphericalHarmonics {
         // D' times A' (beside k) and times p A + u A' (beside e).
         let (mut with_k, mut with_e) = (Vector3::zeros(), Vector3::zeros());
         let (mut xx, mut xy) = (0.0, 0.0);
-        self.visit(r, |term| {
+        self.visit(&[r.x, r.y, r.z], |term| {
             let [a, slope, bend] = term.a;
             let p = term.power;
             let fall = p * a + u * slope;
@@ -177,13 +189,15 @@ impl SphericalHarmonics {
     }
 
     #[inline]
-    fn visit(&self, r: &Vector3<f64>, mut each: impl FnMut(Term)) {
-        let inv = 1.0 / r.norm();
-        let (x, y, u) = (r.x * inv, r.y * inv, r.z * inv);
-        let q = self.field.r_ref() * inv;
+    fn visit<T: Lanes>(&self, r: &[T; 3], mut each: impl FnMut(Term<T>)) {
+        let of = T::all;
+        let inv = of(1.0) / norm(r);
+        let [x, y, u] = r.map(|component| component * inv);
+        let q = of(self.field.r_ref()) * inv;
         // w^m, w^(m-1) and w^(m-2) as (real, imaginary); the sector A_mm does not depend on u.
-        let (mut w, mut w_low, mut w_lowest) = ((1.0, 0.0), (0.0, 0.0), (0.0, 0.0));
-        let (mut sector, mut q_m) = (1.0, 1.0);
+        let nothing = (of(0.0), of(0.0));
+        let (mut w, mut w_low, mut w_lowest) = ((of(1.0), of(0.0)), nothing, nothing);
+        let (mut sector, mut q_m) = (1.0, of(1.0));
         let mut terms = self.terms.as_slice();
         for m in 0..=self.field.order() {
             let (column, later) = terms.split_at(self.field.degree() + 1 - m);
@@ -196,17 +210,17 @@ impl SphericalHarmonics {
             }
             let order = m as f64;
             let pairs = order * (order - 1.0);
-            let (mut low, mut mid, mut q_n) = ([0.0; 3], [0.0; 3], q_m);
+            let (mut low, mut mid, mut q_n) = ([of(0.0); 3], [of(0.0); 3], q_m);
             for (above, term) in column.iter().enumerate() {
-                let Coefficient { c, s, up, down } = *term;
+                let [c, s, up, down] = [term.c, term.s, term.up, term.down].map(of);
                 if above == 0 {
-                    sector *= up;
-                    mid = [sector, 0.0, 0.0];
+                    sector *= term.up;
+                    mid = [of(sector), of(0.0), of(0.0)];
                 } else {
                     let high = [
                         up * u * mid[0] - down * low[0],
                         up * (mid[0] + u * mid[1]) - down * low[1],
-                        up * (2.0 * mid[1] + u * mid[2]) - down * low[2],
+                        up * (of(2.0) * mid[1] + u * mid[2]) - down * low[2],
                     ];
                     (low, mid) = (mid, high);
                     q_n *= q;
@@ -215,15 +229,23 @@ impl SphericalHarmonics {
                     power: (above + 2 * m + 1) as f64,
                     a: mid.map(|a| q_n * a),
                     d: c * w.0 + s * w.1,
-                    d_by: (order * (c * w_low.0 + s * w_low.1), order * (s * w_low.0 - c * w_low.1)),
+                    d_by: (
+                        of(order) * (c * w_low.0 + s * w_low.1),
+                        of(order) * (s * w_low.0 - c * w_low.1),
+                    ),
                     d_by2: (
-                        pairs * (c * w_lowest.0 + s * w_lowest.1),
-                        pairs * (s * w_lowest.0 - c * w_lowest.1),
+                        of(pairs) * (c * w_lowest.0 + s * w_lowest.1),
+                        of(pairs) * (s * w_lowest.0 - c * w_lowest.1),
                     ),
                 });
             }
         }
     }
+}
+
+#[inline]
+fn norm<T: Lanes>([x, y, z]: &[T; 3]) -> T {
+    (*x * *x + *y * *y + *z * *z).sqrt()
 }
 
 #[cfg(test)]
@@ -481,6 +503,17 @@ mod tests {
                 (low.acceleration(&r) - padded.acceleration(&r)).amax() < 1e-15,
                 "at {r}"
             );
+        }
+    }
+
+    #[test]
+    fn two_places_at_once_have_the_bits_of_either() {
+        for field in [SphericalHarmonics::new(EGM96.coefficients()), full()] {
+            for pair in POSITIONS.map(Vector3::from).windows(2) {
+                let alone = [0, 1].map(|i| field.acceleration(&pair[i]).map(f64::to_bits));
+                let both = field.accelerations([&pair[0], &pair[1]]);
+                assert_eq!(both.map(|a| a.map(f64::to_bits)), alone);
+            }
         }
     }
 

@@ -108,5 +108,5 @@ fn an_unknown_category_is_told_and_the_others_are_taken() {
         "fmi2SetDebugLogging: unknown log category 'logWeather', known are: logStatusWarning, \
          logStatusDiscard, logStatusError, logStatusFatal, logEvents, logAll"
     );
-    assert_eq!(run(&host).len(), 2);
+    assert_eq!(run(&host), ["logStatusWarning"]);
 }

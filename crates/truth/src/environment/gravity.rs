@@ -63,6 +63,22 @@ impl Gravity {
             Self::Cr3bp(system) => system.acceleration(place.r, place.v),
         }
     }
+
+    /// The same at two places, to the bit.
+    #[inline]
+    pub(super) fn accelerations(&self, sky: &Sky, places: &[Place<'_>; 2]) -> [Vector3<f64>; 2] {
+        let [a, b] = places;
+        match self {
+            Self::Zonal(field) => field.accelerations([a.r, b.r]),
+            Self::Harmonics(field) => {
+                let dcm = &sky.dcm_f_n;
+                field
+                    .accelerations([&(dcm * a.r), &(dcm * b.r)])
+                    .map(|f| dcm.tr_mul(&f))
+            }
+            Self::Cr3bp(system) => system.accelerations([a.r, b.r], [a.v, b.v]),
+        }
+    }
 }
 
 /// Coefficients of a field by name or from its file.

@@ -105,10 +105,15 @@ macro_rules! registry {
             #[inline]
             pub(crate) fn pull(&self, sky: &Sky, place: &Place<'_>) -> Vector3<f64> {
                 let mut sum = self.gravity.acceleration(sky, place);
-                $(if let Some(model) = &self.$name {
-                    model.pull(sky, place, &mut sum);
-                })*
+                self.pull_beside_gravity(sky, place, &mut sum);
                 sum
+            }
+
+            #[inline]
+            fn pull_beside_gravity(&self, sky: &Sky, place: &Place<'_>, sum: &mut Vector3<f64>) {
+                $(if let Some(model) = &self.$name {
+                    model.pull(sky, place, sum);
+                })*
             }
 
             /// What meets the surface of a vehicle, axes N, m/s2; its accelerometer feels it.
@@ -142,9 +147,29 @@ impl Environment {
         self.almanac.at(t)
     }
 
+    /// The same with the places of bodies from their series each time, as the reference.
+    #[cfg(test)]
+    pub(crate) fn without_pages(&self) -> Self {
+        Self {
+            almanac: self.almanac.without_pages(),
+            ..self.clone()
+        }
+    }
+
     /// Acceleration of a vehicle by all of it, axes N, m/s2.
     #[inline]
     pub(crate) fn acceleration(&self, sky: &Sky, place: &Place<'_>) -> Vector3<f64> {
         self.pull(sky, place) + self.push(sky, place)
+    }
+
+    /// The same of two vehicles, to the bit.
+    #[inline]
+    pub(crate) fn accelerations(&self, sky: &Sky, places: &[Place<'_>; 2]) -> [Vector3<f64>; 2] {
+        let mut pulls = self.gravity.accelerations(sky, places);
+        for (pull, place) in pulls.iter_mut().zip(places) {
+            self.pull_beside_gravity(sky, place, pull);
+            *pull += self.push(sky, place);
+        }
+        pulls
     }
 }

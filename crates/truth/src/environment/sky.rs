@@ -1,8 +1,11 @@
 //! What depends on time alone: how the central body has turned and where other bodies are.
 
+use std::sync::{Arc, OnceLock};
+
 use astro::{AstroError, CentralBody, ThirdBody, UniformRotation, attitude, earth_rotation, epoch};
 use interface::mission::{self, Mission};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SVector, Vector3};
+use numerics::Chebyshev;
 use serde::{Deserialize, Serialize};
 
 use crate::TruthError;
@@ -10,7 +13,23 @@ use crate::TruthError;
 /// Most bodies beside the central one.
 pub(super) const MOST_BODIES: usize = 2;
 
+/// Length of a page of the almanac, s.
+const PAGE_S: f64 = 3600.0;
+
+/// Epochs of a page at which the series are summed. About the Earth the Moon goes 1 rad in 4.3 days: a page is off by
+/// 3.8e8 m (1800 s / 4.3 d)^5 / (2^4 5!), 5e-7 m, less than the digits of its argument, which come in steps of 1e-4 m.
+const NODES: usize = 5;
+
+/// Most pages: six weeks.
+const MOST_PAGES: f64 = 1000.0;
+
+/// Places of the bodies over a page, one after the other, N, m.
+type Page = Chebyshev<NODES, { 3 * MOST_BODIES }>;
+
 /// From what the sky of a mission follows.
+///
+/// Places of Sun, Earth and Moon are some forty sines each time, and so are interpolated within its pages. A page is written
+/// when it is first opened, and depends on the mission and on its number alone: a sky does not know what was asked for before.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(try_from = "Recipe", into = "Recipe")]
 pub(crate) struct Almanac {
@@ -19,6 +38,8 @@ pub(crate) struct Almanac {
     centre: Option<CentralBody>,
     /// The bodies whose places are asked for.
     bodies: Vec<ThirdBody>,
+    /// Pages of the mission's length, which clones share; outside it the series are summed each time.
+    pages: Arc<[OnceLock<Page>]>,
 }
 
 /// As it is saved.
@@ -33,6 +54,8 @@ struct Recipe {
     turn: bool,
     /// Names of the bodies whose places are asked for.
     bodies: Vec<String>,
+    /// Length of the mission, s.
+    duration: f64,
 }
 
 /// The sky at one instant.
@@ -75,6 +98,7 @@ impl Almanac {
             rotation,
             turn: matches!(environment.gravity, mission::Gravity::Harmonics(_)),
             bodies,
+            duration: mission.time.duration_s,
         };
         Ok(recipe.try_into()?)
     }
@@ -113,12 +137,47 @@ impl Almanac {
             (true, None, Some(centre)) => sky.dcm_f_n = centre.dcm_f_n(t),
             _ => (),
         }
+        sky.places = self.places(t);
+        sky
+    }
+
+    /// Where the bodies are.
+    ///
+    /// * `t`: s since the start of the run.
+    fn places(&self, t: f64) -> [Vector3<f64>; MOST_BODIES] {
+        let number = (t / PAGE_S).floor();
+        let Some(page) = (number >= 0.0).then(|| self.pages.get(number as usize)).flatten() else {
+            return self.summed(t);
+        };
+        let middle = (number + 0.5) * PAGE_S;
+        let page = page.get_or_init(|| {
+            Page::through(|s| {
+                let places = self.summed(middle + s * (0.5 * PAGE_S));
+                SVector::from_fn(|i, _| places[i / 3][i % 3])
+            })
+        });
+        let places = page.at((t - middle) / (0.5 * PAGE_S));
+        std::array::from_fn(|body| Vector3::from_fn(|i, _| places[3 * body + i]))
+    }
+
+    /// Where they are by their series.
+    fn summed(&self, t: f64) -> [Vector3<f64>; MOST_BODIES] {
+        let mut places = EMPTY.places;
         if let Some(centre) = &self.centre {
-            for (place, body) in sky.places.iter_mut().zip(&self.bodies) {
+            for (place, body) in places.iter_mut().zip(&self.bodies) {
                 *place = centre.position(body, t);
             }
         }
-        sky
+        places
+    }
+
+    /// The same without pages, as the reference.
+    #[cfg(test)]
+    pub(super) fn without_pages(&self) -> Self {
+        Self {
+            pages: Arc::default(),
+            ..self.clone()
+        }
     }
 }
 
@@ -140,8 +199,17 @@ impl TryFrom<Recipe> for Almanac {
         let bodies = centre
             .iter()
             .flat_map(|centre| recipe.bodies.iter().map(|name| centre.third_body(name)));
+        let bodies: Vec<_> = bodies.collect::<Result<_, _>>()?;
+        let pages = if bodies.is_empty() {
+            0.0
+        } else {
+            recipe.duration / PAGE_S
+        };
         Ok(Self {
-            bodies: bodies.collect::<Result<_, _>>()?,
+            pages: (0..pages.min(MOST_PAGES).ceil() as usize)
+                .map(|_| OnceLock::new())
+                .collect(),
+            bodies,
             centre,
             recipe,
         })
