@@ -52,25 +52,26 @@ pub fn carried<const R: usize, const N: usize>(
 ) -> (SMatrix<f64, R, N>, SMatrix<f64, R, R>) {
     let (mut fp, mut fpf) = (SMatrix::<f64, R, N>::zeros(), SMatrix::<f64, R, R>::zeros());
     for j in 0..N {
-        let column = &mut fp.data.0[j];
-        for k in 0..N {
-            let factor = p.data.0[j][k];
-            for (sum, from) in column.iter_mut().zip(&f.data.0[k]) {
-                *sum += from * factor;
-            }
-        }
+        fp.data.0[j] = gathered(&f.data.0, |k| p.data.0[j][k]);
     }
     for j in 0..R {
-        let column = &mut fpf.data.0[j];
-        for k in 0..N {
-            let factor = f.data.0[k][j];
-            for (sum, from) in column.iter_mut().zip(&fp.data.0[k]) {
-                *sum += from * factor;
-            }
-        }
+        fpf.data.0[j] = gathered(&fp.data.0, |k| f.data.0[k][j]);
     }
     mirror(&mut fpf);
     (fp, fpf)
+}
+
+/// Sum of columns, each by its factor; held while it gathers.
+#[inline(always)]
+fn gathered<const R: usize, const N: usize>(columns: &[[f64; R]; N], factor: impl Fn(usize) -> f64) -> [f64; R] {
+    let mut sum = [0.0; R];
+    for (k, from) in columns.iter().enumerate() {
+        let factor = factor(k);
+        for (sum, from) in sum.iter_mut().zip(from) {
+            *sum += from * factor;
+        }
+    }
+    sum
 }
 
 #[cfg(test)]
