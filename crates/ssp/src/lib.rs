@@ -12,6 +12,7 @@ mod package;
 mod parameters;
 mod read;
 mod tree;
+mod way;
 mod write;
 
 pub use error::SspError;
@@ -21,3 +22,4 @@ pub use model::{
     MappingEntry, Parameter, ParameterSet, System, SystemStructure, Unit, Value,
 };
 pub use package::{Package, STRUCTURE};
+pub use way::{NamedUnit, Way};

@@ -269,8 +269,10 @@ pub struct Connection {
     pub start: End,
     /// The other.
     pub end: End,
-    /// What becomes of values on their way.
+    /// What becomes of values on their way, after their unit was converted.
     pub transformation: Option<Linear>,
+    /// Whether units are not converted: the transformation stands for that.
+    pub suppress_unit_conversion: bool,
 }
 
 impl Connection {
@@ -280,6 +282,7 @@ impl Connection {
             start,
             end,
             transformation: None,
+            suppress_unit_conversion: false,
         }
     }
 }
@@ -347,8 +350,10 @@ pub struct MappingEntry {
     pub source: String,
     /// Name in the element.
     pub target: String,
-    /// What becomes of the value.
+    /// What becomes of the value, after its unit was converted.
     pub transformation: Option<Linear>,
+    /// Whether its unit is not converted: the transformation stands for that.
+    pub suppress_unit_conversion: bool,
 }
 
 /// Values by name.

@@ -10,6 +10,9 @@ use crate::tree::{Node, parse};
 /// Annotations of the Open Simulation Platform.
 pub(crate) const OSP: &str = "com.opensimulationplatform";
 
+/// Attribute of connections and of entries of mappings.
+pub(crate) const SUPPRESS: &str = "suppressUnitConversion";
+
 /// Gives the bytes of a file that a structure names: who names it, and its URI.
 pub(crate) type Files<'a> = dyn FnMut(&str, &str) -> Result<Vec<u8>, SspError> + 'a;
 
@@ -67,6 +70,15 @@ impl Reader<'_, '_> {
         };
         let parsed = text.trim().parse().map(Some);
         parsed.map_err(|_| self.wrong(node, format!("{name}='{text}' is not a number of its type")))
+    }
+
+    fn boolean(&self, node: &Node, name: &str) -> Result<Option<bool>, SspError> {
+        match node.attribute(name).map(str::trim) {
+            None => Ok(None),
+            Some("true" | "1") => Ok(Some(true)),
+            Some("false" | "0") => Ok(Some(false)),
+            Some(other) => Err(self.wrong(node, format!("{name}='{other}' is not true or false"))),
+        }
     }
 
     fn experiment(&self, node: &Node) -> Result<Experiment, SspError> {
@@ -179,12 +191,6 @@ impl Reader<'_, '_> {
         if node.name != "ssd:Connection" {
             return Err(self.wrong(node, "is no ssd:Connection"));
         }
-        if matches!(node.attribute("suppressUnitConversion"), Some("true" | "1")) {
-            return Err(self.wrong(
-                node,
-                "suppressUnitConversion is not read; say the same unit at both ends",
-            ));
-        }
         let end = |side: &str| -> Result<End, SspError> {
             Ok(End {
                 element: node.attribute(&format!("{side}Element")).map(str::to_owned),
@@ -195,6 +201,7 @@ impl Reader<'_, '_> {
             start: end("start")?,
             end: end("end")?,
             transformation: self.transformation(node)?,
+            suppress_unit_conversion: self.boolean(node, SUPPRESS)?.unwrap_or(false),
         })
     }
 
@@ -225,22 +232,7 @@ impl Reader<'_, '_> {
     fn binding(&mut self, owner: &Node, node: &Node) -> Result<Binding, SspError> {
         let by = format!("the parameter binding of {}", owner.label());
         let source = node.attribute("source");
-        // Relative to the component's file rather than to the structure's.
-        if source.is_some() && node.attribute("sourceBase") == Some("component") {
-            return Err(self.wrong(
-                node,
-                "sourceBase 'component' is not read; put the values beside the .ssd file",
-            ));
-        }
-        if let Some(other) = node
-            .attribute("type")
-            .filter(|t| *t != "application/x-ssp-parameter-set")
-        {
-            return Err(self.wrong(
-                node,
-                format!("values of type '{other}' are not read; give application/x-ssp-parameter-set"),
-            ));
-        }
+        self.readable(node, "application/x-ssp-parameter-set")?;
         let values = match (source, node.child("ssd:ParameterValues")) {
             (Some(uri), None) => {
                 let bytes = (self.files)(&by, uri)?;
@@ -257,6 +249,7 @@ impl Reader<'_, '_> {
             _ => return Err(self.wrong(node, "give either source or ssd:ParameterValues")),
         };
         let mapping = node.child("ssd:ParameterMapping").map(|mapping| {
+            self.readable(mapping, "application/x-ssp-parameter-mapping")?;
             if let Some(uri) = mapping.attribute("source") {
                 let bytes = (self.files)(&by, uri)?;
                 let inner = Reader {
@@ -276,6 +269,21 @@ impl Reader<'_, '_> {
         })
     }
 
+    /// Checks where a binding or mapping has its file, and of which type that is.
+    fn readable(&self, node: &Node, media_type: &str) -> Result<(), SspError> {
+        // Relative to the component's file rather than to the structure's.
+        if node.attribute("source").is_some() && node.attribute("sourceBase") == Some("component") {
+            return Err(self.wrong(
+                node,
+                "sourceBase 'component' is not read; put the file beside the .ssd file",
+            ));
+        }
+        match node.attribute("type").filter(|other| *other != media_type) {
+            Some(other) => Err(self.wrong(node, format!("type '{other}' is not read; give {media_type}"))),
+            None => Ok(()),
+        }
+    }
+
     fn mapping(&self, node: &Node) -> Result<Vec<MappingEntry>, SspError> {
         if node.name != "ssm:ParameterMapping" {
             return Err(self.wrong(node, "is not ssm:ParameterMapping of SSP 1.0"));
@@ -286,6 +294,7 @@ impl Reader<'_, '_> {
                 source: self.required(entry, "source")?.to_owned(),
                 target: self.required(entry, "target")?.to_owned(),
                 transformation: self.transformation(entry)?,
+                suppress_unit_conversion: self.boolean(entry, SUPPRESS)?.unwrap_or(false),
             })
         });
         entries.collect()
@@ -322,11 +331,7 @@ impl Reader<'_, '_> {
                 typed.attribute("unit").map(str::to_owned),
             ),
             "ssv:Integer" => Value::Integer(self.number(typed, "value")?.ok_or_else(none)?),
-            "ssv:Boolean" => Value::Boolean(match text()?.trim() {
-                "true" | "1" => true,
-                "false" | "0" => false,
-                other => return Err(self.wrong(node, format!("value='{other}' is not true or false"))),
-            }),
+            "ssv:Boolean" => Value::Boolean(self.boolean(typed, "value")?.ok_or_else(none)?),
             "ssv:String" => Value::String(text()?.to_owned()),
             "ssv:Enumeration" => Value::Enumeration(text()?.to_owned()),
             other => {

@@ -8,7 +8,7 @@ use crate::model::{
     Binding, Component, Connection, Connector, DataType, Element, Experiment, Linear, Parameter, ParameterSet, System,
     SystemStructure, Unit, Value,
 };
-use crate::read::OSP;
+use crate::read::{OSP, SUPPRESS};
 use crate::tree::{SPACES, namespace};
 
 /// Namespace of the annotation that says the step.
@@ -168,10 +168,11 @@ fn bindings(out: &mut Lines, bindings: &[Binding]) {
             out.open("ssd:ParameterMapping", &[]);
             out.open("ssm:ParameterMapping", &[("version".to_owned(), "1.0".to_owned())]);
             for entry in entries {
-                let attributes = [
+                let mut attributes = vec![
                     ("source".to_owned(), entry.source.clone()),
                     ("target".to_owned(), entry.target.clone()),
                 ];
+                suppressed(&mut attributes, entry.suppress_unit_conversion);
                 around(out, "ssm:MappingEntry", &attributes, entry.transformation);
             }
             out.close();
@@ -188,7 +189,12 @@ fn connection(out: &mut Lines, connection: &Connection) {
         optional(&mut attributes, &format!("{side}Element"), end.element.as_ref());
         attributes.push((format!("{side}Connector"), end.connector.clone()));
     }
+    suppressed(&mut attributes, connection.suppress_unit_conversion);
     around(out, "ssd:Connection", &attributes, connection.transformation);
+}
+
+fn suppressed(attributes: &mut Attributes, suppress: bool) {
+    attributes.extend(suppress.then(|| (SUPPRESS.to_owned(), "true".to_owned())));
 }
 
 /// An element that may hold a transformation.

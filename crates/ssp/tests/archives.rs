@@ -80,6 +80,7 @@ fn whole() -> SystemStructure {
                 factor: 1e-3,
                 offset: -0.5,
             }),
+            suppress_unit_conversion: true,
         }]),
     });
     let mut inner = ssp::System {
@@ -98,6 +99,7 @@ fn whole() -> SystemStructure {
             factor: 57.0,
             offset: 0.0,
         }),
+        suppress_unit_conversion: true,
         ..Connection::new(End::of("world", "y[1,2]"), End::of("inner", "in"))
     });
     structure

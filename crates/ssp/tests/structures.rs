@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "what fails in a helper is a failed test")]
 
-use ssp::{Flat, Linear, Package, SspError, Value, flatten};
+use ssp::{BaseUnit, Flat, Linear, NamedUnit, Package, SspError, Value, flatten};
 use std::fs;
 use std::path::Path;
 
@@ -81,7 +81,7 @@ fn shown(flat: &Flat) -> Vec<String> {
     let connections = flat.connections.iter();
     connections
         .map(|c| {
-            let Linear { factor, offset } = c.transformation;
+            let Linear { factor, offset } = c.way.linear(None, None).unwrap();
             format!("{} -> {} *{factor} +{offset}", name(&c.from), name(&c.to))
         })
         .collect()
@@ -114,6 +114,126 @@ fn nested_systems_are_taken_apart_and_transformations_follow_each_other() {
     assert_eq!(shown(&flat), expected);
 }
 
+/// A unit of length of so many metres.
+fn length(name: &str, metres: f64) -> NamedUnit {
+    NamedUnit {
+        name: name.to_owned(),
+        base: Some(BaseUnit {
+            exponents: [0, 1, 0, 0, 0, 0, 0, 0],
+            factor: metres,
+            offset: 0.0,
+        }),
+    }
+}
+
+const UNITS: &str = "<s:Units><Unit name=\"m\"><BaseUnit m=\"1\"/></Unit>\
+     <Unit name=\"km\"><BaseUnit m=\"1\" factor=\"1000\"/></Unit><Unit name=\"s\"><BaseUnit s=\"1\"/></Unit></s:Units>";
+
+fn read_with_units(inside: &str) -> Flat {
+    let text = structure(inside, UNITS);
+    flatten(read_folder(&[("SystemStructure.ssd", &text)]).unwrap().structure()).unwrap()
+}
+
+/// Units are converted first, unless that is suppressed, then comes the transformation: what 1 km comes to is worked by hand.
+#[test]
+fn transformations_come_on_top_of_conversions_of_units() {
+    let (km, m) = (length("km", 1000.0), length("m", 1.0));
+    let bare = |name: &str, kind: &str| format!("<s:Connector name=\"{name}\" kind=\"{kind}\"><Real/></s:Connector>");
+    let quiet = |wire: String| wire.replace("<s:Connection ", "<s:Connection suppressUnitConversion=\"true\" ");
+    let direct = |wire: String| {
+        let text = format!(
+            "<s:Elements>{}{}</s:Elements><s:Connections>{wire}</s:Connections>",
+            component("world", &bare("y", "output"), ""),
+            component("filter", &bare("z", "input"), ""),
+        );
+        read_with_units(&text).connections.remove(0).way
+    };
+    let to = "filter.z";
+    for (wire, expected) in [
+        (wire("world.y", to, ""), 1000.0),
+        (wire("world.y", to, &linear(2.0, 5.0)), 2005.0),
+        (quiet(wire("world.y", to, &linear(2.0, 5.0))), 7.0),
+        (quiet(wire("world.y", to, &linear(1000.0, 0.0))), 1000.0),
+        (quiet(wire("world.y", to, "")), 1.0),
+    ] {
+        let got = direct(wire.clone()).linear(Some(&km), Some(&m)).unwrap().apply(1.0);
+        assert!((got - expected).abs() < 1e-9, "{wire}: {got}");
+    }
+    // Without units there is nothing to convert.
+    let plain = direct(wire("world.y", to, &linear(2.0, 5.0)));
+    assert!((plain.linear(None, Some(&m)).unwrap().apply(1.0) - 7.0).abs() < 1e-12);
+    let s = NamedUnit {
+        name: "s".to_owned(),
+        base: None,
+    };
+    assert!(
+        plain
+            .linear(Some(&km), Some(&s))
+            .unwrap_err()
+            .to_string()
+            .contains("'km' cannot be converted to 's'")
+    );
+
+    // Through a system, from km to km; by its connector in m: 2 * 1000 + 1 there, hence 2.001 km. A connector that says no unit has
+    // that of the filter inside, hence 2 * 1 + 1.
+    for (connector, expected) in [(real("in", "input"), 2.001), (bare("in", "input"), 3.0)] {
+        let inner = format!(
+            "<s:System name=\"sub\"><s:Connectors>{connector}</s:Connectors><s:Elements>{}</s:Elements><s:Connections>{}</s:Connections></s:System>",
+            component("filter", &bare("z", "input"), ""),
+            wire("in", "filter.z", ""),
+        );
+        let text = format!(
+            "<s:Elements>{}{inner}</s:Elements><s:Connections>{}</s:Connections>",
+            component("world", &bare("y", "output"), ""),
+            wire("world.y", "sub.in", &linear(2.0, 1.0)),
+        );
+        let way = read_with_units(&text).connections.remove(0).way;
+        let got = way.linear(Some(&km), Some(&km)).unwrap().apply(1.0);
+        assert!((got - expected).abs() < 1e-12, "{connector}: {got}");
+    }
+}
+
+/// 5 km for a parameter in m, by hand, through a mapping and through a connector of the system.
+#[test]
+fn values_are_converted_before_they_are_transformed() {
+    let m = length("m", 1.0);
+    let given = "<ssv:Parameter name=\"reach\"><ssv:Real value=\"5\" unit=\"km\"/></ssv:Parameter>";
+    let mapping = |target: &str, attributes: &str, inside: &str| {
+        format!(
+            "<s:ParameterMapping><ssm:ParameterMapping version=\"1.0\"><ssm:MappingEntry source=\"reach\" target=\"{target}\" \
+             {attributes}>{inside}</ssm:MappingEntry></ssm:ParameterMapping></s:ParameterMapping>"
+        )
+    };
+    let quiet = "suppressUnitConversion=\"1\"";
+    for (attributes, inside, expected) in [
+        ("", String::new(), 5000.0),
+        (quiet, String::new(), 5.0),
+        ("suppressUnitConversion=\"false\"", linear(2.0, 100.0), 10100.0),
+        (quiet, linear(2.0, 100.0), 110.0),
+    ] {
+        let binding = inline(given, &mapping("k", attributes, &inside));
+        let text = format!("<s:Elements>{}</s:Elements>", component("a", "", &binding));
+        let flat = read_with_units(&text);
+        let taken = flat.components[0].parameters[0].in_unit(Some(&m)).unwrap();
+        assert_eq!(
+            taken,
+            Value::Real(expected, Some("m".to_owned())),
+            "{attributes} {inside}"
+        );
+    }
+    // 5 km, plus 100 in the connector's m, halved.
+    let binding = inline(given, &mapping("far", "", &linear(1.0, 100.0)));
+    let text = format!(
+        "<s:Connectors>{}</s:Connectors>{binding}<s:Elements>{}</s:Elements><s:Connections>{}</s:Connections>",
+        real("far", "parameter"),
+        component("a", &real("k", "parameter"), ""),
+        wire("far", "a.k", &linear(0.5, 0.0)),
+    );
+    let flat = read_with_units(&text);
+    let taken = flat.components[0].parameters[0].in_unit(Some(&m)).unwrap();
+    assert_eq!(taken, Value::Real(2550.0, Some("m".to_owned())));
+}
+
 #[test]
 fn connectors_of_the_system_lead_to_those_of_components() {
     let text = format!(
@@ -134,7 +254,7 @@ fn connectors_of_the_system_lead_to_those_of_components() {
         ("est", &(0, "y".to_owned()))
     );
     assert_eq!(
-        flat.outputs[0].transformation,
+        flat.outputs[0].way.linear(None, None).unwrap(),
         Linear {
             factor: 3.0,
             offset: 0.0
@@ -160,10 +280,13 @@ fn values_reach_components_from_every_level() {
     );
     let flat = read(&text).unwrap();
     let parameters = &flat.components[0].parameters;
-    let got: Vec<(&str, &Value)> = parameters.iter().map(|p| (p.name.as_str(), &p.value)).collect();
+    let taken = parameters.iter().map(|p| (p.name.as_str(), p.in_unit(None).unwrap()));
     let number = |x: f64| Value::Real(x, None);
     let (one, two, four, gain) = (number(1.0), number(2.0), number(4.0), number(30.5));
-    assert_eq!(got, [("q", &one), ("k", &two), ("deep.k", &four), ("g", &gain)]);
+    assert_eq!(
+        taken.collect::<Vec<_>>(),
+        [("q", one), ("k", two), ("deep.k", four), ("g", gain)]
+    );
 }
 
 #[test]
@@ -203,9 +326,12 @@ fn values_come_from_files_through_prefixes_and_mappings() {
         ("on", Value::Boolean(true)),
         ("file", Value::String("a & b".to_owned())),
         ("mode", Value::Enumeration("slow".to_owned())),
-        ("m", Value::Real(1500.0, Some("t".to_owned()))),
+        ("m", Value::Real(1.5, Some("t".to_owned()))),
     ];
     assert_eq!(got, expected);
+    // A thousand times 1.5 t.
+    let mapped = &flat.components[0].parameters[5];
+    assert_eq!(mapped.in_unit(None).unwrap(), Value::Real(1500.0, None));
     assert!((flat.components[0].parameters[0].base.unwrap().factor - 1000.0).abs() < f64::EPSILON);
 }
 
@@ -222,6 +348,11 @@ fn what_is_wrong_is_named() {
         format!("<s:Elements>{a}{b}</s:Elements><s:Connections>{more}</s:Connections>")
     };
     let one = |connectors: &str, more: &str| format!("<s:Elements>{}</s:Elements>", component("a", connectors, more));
+    let mapped = |attributes: &str| {
+        let entry = "<ssm:ParameterMapping version=\"1.0\"><ssm:MappingEntry source=\"k\" target=\"k\"/></ssm:ParameterMapping>";
+        let mapping = format!("<s:ParameterMapping {attributes}>{entry}</s:ParameterMapping>");
+        inline(&value("k", "1"), &mapping)
+    };
     let looped = format!(
         "<s:Elements><s:System name=\"sub\"><s:Connectors>{}{}</s:Connectors><s:Connections>{}</s:Connections></s:System></s:Elements>\
          <s:Connections>{}</s:Connections>",
@@ -273,9 +404,17 @@ fn what_is_wrong_is_named() {
         ),
         (
             both(
-                "<s:Connection startElement=\"a\" startConnector=\"y\" endElement=\"b\" endConnector=\"u\" suppressUnitConversion=\"true\"/>",
+                "<s:Connection startElement=\"a\" startConnector=\"y\" endElement=\"b\" endConnector=\"u\" suppressUnitConversion=\"yes\"/>",
             ),
-            "suppressUnitConversion is not read",
+            "suppressUnitConversion='yes' is not true or false",
+        ),
+        (
+            one("", &mapped("sourceBase=\"component\" source=\"m.ssm\"")),
+            "ssd:ParameterMapping: sourceBase 'component' is not read",
+        ),
+        (
+            one("", &mapped("type=\"text/csv\"")),
+            "ssd:ParameterMapping: type 'text/csv' is not read; give application/x-ssp-parameter-mapping",
         ),
         (looped, "is fed by itself"),
         (types, "the types differ: Real and Integer"),
