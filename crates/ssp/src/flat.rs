@@ -288,6 +288,16 @@ impl Walk<'_> {
             (true, true) => return Err(wrong("both ends give values; connect an output to an input".to_owned())),
             (false, false) => return Err(wrong("both ends take values; connect an output to an input".to_owned())),
         };
+        for end in [&from, &to] {
+            if let Some(DataType::Other(other)) = &end.connector.data {
+                let problem = format!(
+                    "type {} of {} is not read; connect Real, Integer, Boolean, String or Enumeration",
+                    other.name,
+                    shown(&end.port)
+                );
+                return Err(wrong(problem));
+            }
+        }
         if let (Some(one), Some(other)) = (&from.connector.data, &to.connector.data)
             && one.name() != other.name()
         {

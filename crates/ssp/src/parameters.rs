@@ -18,6 +18,17 @@ pub(crate) struct Given {
 }
 
 impl Given {
+    fn readable(&self) -> Result<(), SspError> {
+        let Value::Other(other) = &self.value else {
+            return Ok(());
+        };
+        let problem = format!(
+            "'{}' is of type {}, which is not read; give Real, Integer, Boolean, String or Enumeration",
+            self.name, other.name
+        );
+        Err(SspError::structure(&self.by, problem))
+    }
+
     /// The same for another name, on another way.
     fn under(&self, name: &str, way: Way) -> Result<Self, SspError> {
         if way.transforms() && !matches!(self.value, Value::Real(..)) {
@@ -65,6 +76,7 @@ pub(crate) fn given(owner: &str, binding: &Binding, units: &[Unit]) -> Result<Ve
         })
         .collect();
     let Some(entries) = &binding.mapping else {
+        plain.iter().try_for_each(Given::readable)?;
         return Ok(plain);
     };
     let mapped = entries.iter().map(|entry| {
@@ -79,6 +91,7 @@ pub(crate) fn given(owner: &str, binding: &Binding, units: &[Unit]) -> Result<Ve
                 ),
             )
         })?;
+        source.readable()?;
         let way = Way::hop(entry.transformation, entry.suppress_unit_conversion);
         source.under(&entry.target, way)
     });

@@ -3,7 +3,7 @@
 use crate::SspError;
 use crate::model::{
     BaseUnit, Binding, Component, Connection, Connector, DataType, Element, End, Experiment, FMU, Kind, Linear,
-    MappingEntry, Parameter, ParameterSet, System, SystemStructure, Unit, Value,
+    MappingEntry, Other, Parameter, ParameterSet, System, SystemStructure, Unit, Value,
 };
 use crate::tree::{Node, parse};
 
@@ -41,6 +41,14 @@ pub(crate) fn structure(file: &str, bytes: &[u8], files: &mut Files<'_>) -> Resu
             .map(|node| reader.experiment(node))
             .transpose()?,
     })
+}
+
+/// A type that is not read.
+fn other(name: &str, node: &Node) -> Other {
+    Other {
+        name: name.to_owned(),
+        attributes: node.attributes.clone(),
+    }
 }
 
 struct Reader<'a, 'f> {
@@ -98,18 +106,15 @@ impl Reader<'_, '_> {
     }
 
     fn system(&mut self, node: &Node) -> Result<System, SspError> {
-        if let Some(dictionaries) = node.child("ssd:SignalDictionaries") {
-            return Err(self.wrong(
-                dictionaries,
-                "signal dictionaries are not read; connect the elements themselves",
-            ));
-        }
         let mut elements: Vec<Element> = Vec::new();
         for child in node.list("ssd:Elements") {
             let element = match child.name.as_str() {
                 "ssd:Component" => Element::Component(self.component(child)?),
                 "ssd:System" => Element::System(self.system(child)?),
-                _ => return Err(self.wrong(child, "only ssd:Component and ssd:System are read as elements")),
+                _ => {
+                    let problem = "only ssd:Component and ssd:System are read as elements; connect them without a signal dictionary";
+                    return Err(self.wrong(child, problem));
+                }
             };
             if elements.iter().any(|other| other.name() == element.name()) {
                 return Err(self.wrong(child, "a second element of this name; give each a name of its own"));
@@ -178,10 +183,7 @@ impl Reader<'_, '_> {
                     .required(child, "name")
                     .map(|name| DataType::Enumeration(name.to_owned())),
                 "Annotations" => return None,
-                other => Err(self.wrong(
-                    node,
-                    format!("type {other} is not read; give Real, Integer, Boolean, String or Enumeration"),
-                )),
+                name => Ok(DataType::Other(other(name, child))),
             })
         });
         types.next().transpose()
@@ -334,12 +336,7 @@ impl Reader<'_, '_> {
             "ssv:Boolean" => Value::Boolean(self.boolean(typed, "value")?.ok_or_else(none)?),
             "ssv:String" => Value::String(text()?.to_owned()),
             "ssv:Enumeration" => Value::Enumeration(text()?.to_owned()),
-            other => {
-                return Err(self.wrong(
-                    node,
-                    format!("type {other} is not read; give Real, Integer, Boolean, String or Enumeration"),
-                ));
-            }
+            name => Value::Other(other(name.trim_start_matches("ssv:"), typed)),
         };
         Ok(Parameter {
             name: self.required(node, "name")?.to_owned(),

@@ -135,6 +135,7 @@ fn connectors(out: &mut Lines, connectors: &[Connector]) {
         let detail = match data {
             DataType::Real { unit } => unit.iter().map(|unit| ("unit".to_owned(), unit.clone())).collect(),
             DataType::Enumeration(name) => named(name),
+            DataType::Other(other) => other.attributes.clone(),
             _ => Vec::new(),
         };
         out.empty(&format!("ssc:{}", data.name()), &detail);
@@ -228,14 +229,16 @@ fn parameter_set(out: &mut Lines, set: &ParameterSet, mut attributes: Attributes
         let mut attributes = named(name);
         optional(&mut attributes, "description", description.as_ref());
         out.open("ssv:Parameter", &attributes);
-        let text = match value {
-            Value::Real(real, _) => number(*real),
-            other => other.to_string(),
+        let said = |text: String| vec![("value".to_owned(), text)];
+        let attributes = match value {
+            Value::Real(real, unit) => {
+                let mut attributes = said(number(*real));
+                optional(&mut attributes, "unit", unit.as_ref());
+                attributes
+            }
+            Value::Other(other) => other.attributes.clone(),
+            other => said(other.to_string()),
         };
-        let mut attributes = vec![("value".to_owned(), text)];
-        if let Value::Real(_, Some(unit)) = value {
-            attributes.push(("unit".to_owned(), unit.clone()));
-        }
         out.empty(&format!("ssv:{}", value.type_name()), &attributes);
         out.close();
     }

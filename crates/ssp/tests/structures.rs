@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "what fails in a helper is a failed test")]
 
 use ssp::{BaseUnit, Flat, Linear, NamedUnit, Package, SspError, Value, flatten};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -353,6 +354,8 @@ fn what_is_wrong_is_named() {
         let mapping = format!("<s:ParameterMapping {attributes}>{entry}</s:ParameterMapping>");
         inline(&value("k", "1"), &mapping)
     };
+    let bytes = "<s:Connector name=\"given\" kind=\"output\"><Binary/></s:Connector><s:Connector name=\"taken\" kind=\"input\"/>";
+    let blob = "<ssv:Parameter name=\"blob\"><ssv:Binary value=\"00ff\"/></ssv:Parameter>";
     let looped = format!(
         "<s:Elements><s:System name=\"sub\"><s:Connectors>{}{}</s:Connectors><s:Connections>{}</s:Connections></s:System></s:Elements>\
          <s:Connections>{}</s:Connections>",
@@ -425,8 +428,16 @@ fn what_is_wrong_is_named() {
             "kind 'inout' is not read; give input, output",
         ),
         (
-            one("<s:Connector name=\"y\" kind=\"input\"><Binary/></s:Connector>", ""),
-            "type Binary is not read",
+            format!(
+                "{}<s:Connections>{}</s:Connections>",
+                one(bytes, ""),
+                wire("a.given", "a.taken", "")
+            ),
+            "connection from a.given to a.taken: type Binary of a.given is not read",
+        ),
+        (
+            one("", &inline(blob, "")),
+            "binding 'given' of component 'a': 'blob' is of type Binary, which is not read",
         ),
         (
             one("<s:Connector kind=\"input\"/>", ""),
@@ -518,7 +529,6 @@ fn what_is_wrong_is_named() {
             "<s:Elements><s:SignalDictionaryReference name=\"d\" dictionary=\"e\"/></s:Elements>".to_owned(),
             "only ssd:Component and ssd:System",
         ),
-        ("<s:SignalDictionaries/>".to_owned(), "signal dictionaries are not read"),
         (
             format!("<s:Elements>{0}{0}</s:Elements>", component("a", "", "")),
             "a second element of this name",
@@ -527,6 +537,80 @@ fn what_is_wrong_is_named() {
     ] {
         let error = read(&text).map(|flat| shown(&flat)).unwrap_err().to_string();
         assert!(error.contains(says), "{says}\n{error}\n{text}");
+    }
+}
+
+/// What nothing leads to is no reason to refuse the rest.
+#[test]
+fn parts_that_are_not_needed_are_passed_by() {
+    let bytes = "<s:Connector name=\"log\" kind=\"output\"><Binary mime-type=\"text/plain\"/></s:Connector>";
+    let blob = "<ssv:Parameter name=\"blob\"><ssv:Binary value=\"00ff\"/></ssv:Parameter>";
+    let mapping = "<s:ParameterMapping><ssm:ParameterMapping version=\"1.0\"><ssm:MappingEntry source=\"k\" target=\"k\"/>\
+         </ssm:ParameterMapping></s:ParameterMapping>";
+    let binding = inline(&format!("{blob}{}", value("k", "2")), mapping);
+    let text = format!(
+        "<s:Elements>{}{}</s:Elements><s:Connections>{}</s:Connections><s:SignalDictionaries>\
+         <s:SignalDictionary name=\"d\"/></s:SignalDictionaries>",
+        component("a", &format!("{}{bytes}", real("y", "output")), &binding),
+        component("b", &real("u", "input"), ""),
+        wire("a.y", "b.u", ""),
+    );
+    let flat = read(&text).unwrap();
+    assert_eq!(shown(&flat), ["a.y -> b.u *1 +0"]);
+    assert_eq!(flat.components[0].parameters.len(), 1);
+    assert_eq!(
+        flat.components[0].parameters[0].in_unit(None).unwrap(),
+        Value::Real(2.0, None)
+    );
+}
+
+/// References as RFC 3986 has them: what leads back into the SSP is read, and what leads out is refused.
+#[test]
+fn steps_up_stay_inside() {
+    let ssv = set(&value("k", "1")).replace(
+        "<ssv:ParameterSet",
+        "<ssv:ParameterSet xmlns:ssv=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\"",
+    );
+    for (source, found) in [
+        ("resources/x.ssv", true),
+        ("./resources/../resources/x.ssv", true),
+        ("a/b/../../resources/./x.ssv", true),
+        ("resources//x.ssv", true),
+        ("%72esources/%2E%2E/resources/x.ssv", true),
+        ("../x.ssv", false),
+        ("resources/../../x.ssv", false),
+        ("resources/%2e%2e/%2e%2e/x.ssv", false),
+        ("/resources/x.ssv", false),
+        ("resources/..", false),
+        ("./", false),
+    ] {
+        let binding = format!("<s:ParameterBindings><s:ParameterBinding source=\"{source}\"/></s:ParameterBindings>");
+        let text = structure(
+            &format!("<s:Elements>{}</s:Elements>", component("a", "", &binding)),
+            "",
+        );
+        let package = read_folder(&[("SystemStructure.ssd", &text), ("resources/x.ssv", &ssv)]);
+        match package {
+            Ok(package) => {
+                assert!(found, "{source}");
+                // What is written again has the file under its name.
+                let folder = tempfile::tempdir().unwrap();
+                let path = folder.path().join("again.ssp");
+                fs::write(&path, Package::bytes(package.structure(), &BTreeMap::new()).unwrap()).unwrap();
+                assert_eq!(
+                    Package::open(&path).unwrap().structure(),
+                    package.structure(),
+                    "{source}"
+                );
+            }
+            Err(error) => {
+                assert!(!found, "{source}: {error}");
+                assert!(
+                    error.to_string().contains("does not lead into the SSP"),
+                    "{source}: {error}"
+                );
+            }
+        }
     }
 }
 

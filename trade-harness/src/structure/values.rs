@@ -91,6 +91,7 @@ fn text(description: &ModelDescription, variable: &Variable, parameter: &FlatPar
         Value::Boolean(_) => variable.base_type() == BaseType::Boolean,
         Value::String(_) => variable.base_type() == BaseType::String,
         Value::Enumeration(_) => variable.base_type() == BaseType::Enumeration,
+        Value::Other(_) => false,
     };
     if !fits {
         return Err(format!(
