@@ -441,6 +441,12 @@ const XML: &[Edit] = &[
         "variable.alias-unit",
         "level",
     ),
+    (
+        "<Real unit=\"m\" displayUnit=\"m\"/>",
+        "<Real/>",
+        "variable.alias-unit",
+        "level",
+    ),
     ("name=\"u[2]\"", "name=\"u[3]\"", "variable.array", "u"),
     ("name=\"u[2]\"", "name=\"u[2,1]\"", "variable.array", "u"),
     (
