@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{fmu, harness, harness_ok, read_csv, results, root, skipped};
+use common::{fmu, harness, harness_ok, read_csv, repacked, results, root, skipped};
 use interface::mission::EMBEDDED;
 use interface::ports::{PORTS, Role, Shape};
 use ssp::{Component, Connection, Connector, DataType, Element, End, Kind, Package, Value, flatten};
@@ -158,17 +158,12 @@ fn a_study_of_the_packed_structure_is_that_of_its_filter() {
 #[test]
 fn another_mission_is_bound_by_its_files() {
     let folder = tempfile::tempdir().unwrap();
-    let unpacked = folder.path().join("structure");
-    let mut archive = zip::ZipArchive::new(std::fs::File::open(packed()).unwrap()).unwrap();
-    archive.extract(&unpacked).unwrap();
-    let structure = unpacked.join("SystemStructure.ssd");
-    let changed = std::fs::read_to_string(&structure)
-        .unwrap()
-        .replace("resources/leo_venting_", "resources/formation_");
-    std::fs::write(&structure, changed).unwrap();
+    let place = folder.path().join("structure");
+    let changed = unpacked(&place).replace("resources/leo_venting_", "resources/formation_");
+    std::fs::write(place.join("SystemStructure.ssd"), changed).unwrap();
     let (told, plain) = (folder.path().join("told"), folder.path().join("plain"));
     let short = ["--runs", "1", "--duration", "600", "--filters", "snc"];
-    harness_ok(&[&["compare", "--ssp", text(&unpacked), "--out", text(&told)], &short[..]].concat());
+    harness_ok(&[&["compare", "--ssp", text(&place), "--out", text(&told)], &short[..]].concat());
     harness_ok(
         &[
             &["compare", "--scenario", "formation", "--out", text(&plain)],
@@ -351,14 +346,149 @@ fn a_driver_tells_the_filter_what_it_commands() {
     assert!(told.contains("would both stand for a_cmd_c_n[1]"), "{told}");
 }
 
+/// The packed structure in a folder, to be changed by hand; its text is returned.
+fn unpacked(folder: &Path) -> String {
+    let mut archive = zip::ZipArchive::new(std::fs::File::open(packed()).unwrap()).unwrap();
+    archive.extract(folder).unwrap();
+    std::fs::read_to_string(folder.join("SystemStructure.ssd")).unwrap()
+}
+
+/// Of a filter that reads the range in km: a bare connection converts it, and so does a factor that stands for the conversion. On top
+/// of it, or without either, the range would be another one.
+#[test]
+fn a_factor_is_a_conversion_only_where_units_are_not_converted() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = unpacked(folder.path());
+    let nav = folder.path().join("resources/fmu-nav.fmu");
+    repacked(&fmu("fmu-nav"), &nav, |name, bytes| {
+        Some(match name {
+            "modelDescription.xml" => {
+                let xml = String::from_utf8(bytes).unwrap();
+                let metre = "<Unit name=\"m\">";
+                let kilometre = "<Unit name=\"km\"><BaseUnit m=\"1\" factor=\"1000\"/></Unit>";
+                let (before, after) = xml.split_once("name=\"lidar.range\"").unwrap();
+                format!(
+                    "{before}name=\"lidar.range\"{}",
+                    after.replacen("unit=\"m\"", "unit=\"km\"", 1)
+                )
+                .replacen(metre, &format!("{kilometre}{metre}"), 1)
+                .into_bytes()
+            }
+            _ => bytes,
+        })
+    });
+    let range = whole
+        .lines()
+        .find(|line| line.contains("startConnector=\"lidar.range\""))
+        .unwrap();
+    // What its connector says of the unit is left to the FMU.
+    let (before, after) = whole.split_once("name=\"lidar.range\" kind=\"input\">").unwrap();
+    let whole = format!(
+        "{before}name=\"lidar.range\" kind=\"input\">{}",
+        after.replacen(" unit=\"m\"", "", 1)
+    );
+    let run = |how: &str, inside: &str| {
+        let line = range.replace("/>", &format!(" {how}>{inside}</ssd:Connection>"));
+        std::fs::write(folder.path().join("SystemStructure.ssd"), whole.replace(range, &line)).unwrap();
+        let out = folder.path().join("out");
+        let study = [
+            "compare",
+            "--ssp",
+            text(folder.path()),
+            "--filters",
+            "snc",
+            "--runs",
+            "1",
+            "--duration",
+            "400",
+            "--force",
+        ];
+        let ended = harness(&[&study[..], &["--out", text(&out)]].concat());
+        match ended.status.code() {
+            Some(0) => {
+                assert_ne!(read_csv(&out.join("runs.csv"))[0]["pos_rmse_m"], "");
+                Ok(results(&out)["runs.csv"].clone())
+            }
+            _ => Err(String::from_utf8_lossy(&ended.stderr).into_owned()),
+        }
+    };
+    let (quiet, milli) = (
+        "suppressUnitConversion=\"true\"",
+        "<ssc:LinearTransformation factor=\"0.001\"/>",
+    );
+    let bare = run("", "").unwrap();
+    assert_eq!(run(quiet, milli).unwrap(), bare);
+    for (how, inside, says) in [
+        ("", milli, "factor 0.000001 and offset 0"),
+        (quiet, "", "factor 1 and offset 0"),
+        (
+            "",
+            "<ssc:LinearTransformation offset=\"1\"/>",
+            "factor 0.001 and offset 1",
+        ),
+    ] {
+        let told = run(how, inside).unwrap_err();
+        assert!(
+            told.contains("connection from truth.lidar.range to nav.lidar.range: "),
+            "{told}"
+        );
+        assert!(told.contains(says), "{says}: {told}");
+    }
+}
+
+/// A value of a mapping is the one that `--set` would say, worked by hand.
+#[test]
+fn mapped_values_are_converted_unless_that_is_suppressed() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = unpacked(folder.path());
+    let study = [
+        "compare",
+        "--filters",
+        "snc",
+        "--runs",
+        "1",
+        "--duration",
+        "400",
+        "--force",
+        "--out",
+    ];
+    let out = folder.path().join("out");
+    let plain = |sigma: &str| {
+        let set = format!("fmu-truth.lidar.sigma_range={sigma}");
+        harness_ok(&[&study[..], &[text(&out), "--set", &set]].concat());
+        results(&out)["runs.csv"].clone()
+    };
+    let mapped = |value: &str, how: &str, inside: &str| {
+        let binding = format!(
+            "<ssd:ParameterBinding><ssd:ParameterValues><ssv:ParameterSet version=\"1.0\" name=\"s\"><ssv:Parameters>\
+             <ssv:Parameter name=\"sigma\"><ssv:Real value=\"{value}\" unit=\"km\"/></ssv:Parameter></ssv:Parameters><ssv:Units>\
+             <ssc:Unit name=\"km\"><ssc:BaseUnit m=\"1\" factor=\"1000\"/></ssc:Unit></ssv:Units></ssv:ParameterSet>\
+             </ssd:ParameterValues><ssd:ParameterMapping><ssm:ParameterMapping version=\"1.0\">\
+             <ssm:MappingEntry source=\"sigma\" target=\"lidar.sigma_range\" {how}>{inside}</ssm:MappingEntry>\
+             </ssm:ParameterMapping></ssd:ParameterMapping></ssd:ParameterBinding>"
+        );
+        let first = "<ssd:ParameterBinding source=\"resources/leo_venting_truth.ssv\"/>";
+        assert!(whole.contains(first));
+        let changed = whole.replace(first, &format!("{first}{binding}"));
+        std::fs::write(folder.path().join("SystemStructure.ssd"), changed).unwrap();
+        harness_ok(&[&study[..], &[text(&out), "--ssp", text(folder.path())]].concat());
+        results(&out)["runs.csv"].clone()
+    };
+    let (quarter, half) = (plain("0.25"), plain("0.5"));
+    assert_ne!(quarter, half);
+    // 0.5 m; 0.5 as it stands; 0.125 m and 0.125 m more.
+    assert_eq!(mapped("0.0005", "", ""), half);
+    assert_eq!(mapped("0.5", "suppressUnitConversion=\"true\"", ""), half);
+    let more = "<ssc:LinearTransformation offset=\"0.125\"/>";
+    assert_eq!(mapped("0.000125", "", more), quarter);
+}
+
 /// What no study can represent is an error that names the element.
 #[test]
 fn what_a_study_cannot_represent_is_named() {
     let folder = tempfile::tempdir().unwrap();
-    let mut archive = zip::ZipArchive::new(std::fs::File::open(packed()).unwrap()).unwrap();
-    archive.extract(folder.path()).unwrap();
+    let whole = unpacked(folder.path());
     let structure = folder.path().join("SystemStructure.ssd");
-    let whole = std::fs::read_to_string(&structure).unwrap();
     let line = |part: &str| {
         let found = whole.lines().find(|line| line.contains(part)).unwrap();
         found.trim().to_owned()
@@ -368,6 +498,10 @@ fn what_a_study_cannot_represent_is_named() {
     let input = "<ssd:Connector name=\"a_cmd_c_n[1]\" kind=\"input\"><ssc:Real unit=\"m/s2\"/></ssd:Connector>";
     let first = line("<ssd:Connector name=\"sample_time\" kind=\"output\">");
     let scaled = range.replace("/>", "><ssc:LinearTransformation factor=\"1000\"/></ssd:Connection>");
+    let top = line("<ssd:System ");
+    let offered = "<ssd:Connectors><ssd:Connector name=\"est.r_tc_n[1]\" kind=\"output\"><ssc:Real unit=\"m\"/></ssd:Connector></ssd:Connectors>";
+    let doubled = "<ssd:Connection startElement=\"nav\" startConnector=\"est.r_tc_n[1]\" endConnector=\"est.r_tc_n[1]\">\
+                   <ssc:LinearTransformation factor=\"2\"/></ssd:Connection>";
     let late = whole.replace("startTime=\"0.0\"", "startTime=\"5.0\"");
     let cases = [
         (whole.replace(&range, ""), "input 'nav.lidar.range': nothing feeds it"),
@@ -392,6 +526,12 @@ fn what_a_study_cannot_represent_is_named() {
         (
             whole.replace("name=\"lidar.range\"", "name=\"lidar.rang\""),
             "lidar.range",
+        ),
+        (
+            whole
+                .replace(&top, &format!("{top}{offered}"))
+                .replace(&range, &format!("{range}{doubled}")),
+            "connector 'est.r_tc_n[1]' of the system: factor 2",
         ),
         (late, "startTime is 5"),
     ];

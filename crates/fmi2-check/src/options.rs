@@ -8,7 +8,7 @@ use std::time::Duration;
 pub struct Running {
     /// Makes a process that calls [`crate::serve`] with the last two words of its command line, which are added to these.
     pub program: Box<dyn Fn() -> Command>,
-    /// The longest that one trial may take.
+    /// The longest that one trial may take; wrong calls are waited for a few seconds only.
     pub limit: Duration,
     /// Whether FMUs are run that need a tool (`needsExecutionTool`), which has to be installed.
     pub with_tool: bool,

@@ -8,9 +8,10 @@ mod common;
 use std::collections::BTreeSet;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
 
-use common::{compiled, found_running, good, lines, names, score};
-use fmi2_check::rules;
+use common::{compiled, found_running, good, lines, names, pack, running, score, serious};
+use fmi2_check::{check, rules};
 
 /// Switch of the source, rule, element.
 const DEFECTS: &[(&str, &str, &str)] = &[
@@ -60,7 +61,8 @@ const DEFECTS: &[(&str, &str, &str)] = &[
     ("ANY_STEP", "binary.order", "fmi2DoStep"),
     ("ANY_REFERENCE", "binary.reference", "fmi2GetReal"),
     ("ANY_REFERENCE", "binary.reference", "fmi2SetReal"),
-    ("TABLE_UNCHECKED", "binary.misuse-crash", "fmi2GetReal"),
+    ("TABLE_UNCHECKED", "binary.reference", "fmi2GetReal"),
+    ("NAN_STEP_HANGS", "binary.misuse-crash", "fmi2DoStep"),
     ("CONSTANT_SETTABLE", "binary.constant-set", "pi"),
     ("FIXED_SETTABLE", "binary.fixed-set", "gain"),
     ("OUTPUT_SETTABLE", "binary.output-set", "y"),
@@ -91,6 +93,41 @@ fn the_last_words_of_an_fmu_are_told() {
         told.contains("it returned NULL; it logged: no room for a tank"),
         "{told}"
     );
+}
+
+/// FMI 2.0.4, 4.2.2 and 4.2.4 bind the master: an FMU that takes what it should not be told, or never comes back from it, has broken
+/// nothing; and the whole limit is not spent on waiting.
+#[test]
+fn duties_of_the_master_are_advice() {
+    let switches = [
+        "ANY_ORDER",
+        "ANY_STEP",
+        "FIXED_SETTABLE",
+        "OUTPUT_SETTABLE",
+        "ANY_NUMBER",
+        "NAN_STEP_HANGS",
+    ];
+    let Some(library) = compiled(&switches) else { return };
+    let mut patient = running();
+    patient.limit = Duration::from_secs(60);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("good.fmu");
+    pack(&good(&library), &path);
+    let findings = check(&path, Some(&patient)).unwrap();
+    assert_eq!(serious(&findings), 0, "{}", lines(&findings));
+    let rules: BTreeSet<&str> = findings.0.iter().map(|f| f.rule.id).collect();
+    let expected = [
+        "binary.fixed-set",
+        "binary.misuse-crash",
+        "binary.nan",
+        "binary.order",
+        "binary.output-set",
+    ];
+    assert_eq!(rules.into_iter().collect::<Vec<_>>(), expected);
+    let hung = findings.0.iter().find(|f| f.rule.id == "binary.misuse-crash").unwrap();
+    let (_, seconds) = hung.what.split_once("did not come back within ").unwrap();
+    let seconds: f64 = seconds.trim_end_matches(" s").parse().unwrap();
+    assert!((5.0..30.0).contains(&seconds), "{}", hung.what);
 }
 
 /// Of the rules of a library at work, each is broken by some defect here; one only says that it cannot be run.

@@ -441,6 +441,12 @@ const XML: &[Edit] = &[
         "variable.alias-unit",
         "level",
     ),
+    (
+        "<Real unit=\"m\" displayUnit=\"m\"/>",
+        "<Real/>",
+        "variable.alias-unit",
+        "level",
+    ),
     ("name=\"u[2]\"", "name=\"u[3]\"", "variable.array", "u"),
     ("name=\"u[2]\"", "name=\"u[2,1]\"", "variable.array", "u"),
     (
@@ -536,10 +542,7 @@ type Edits = (&'static [(&'static str, &'static str)], &'static str, &'static st
 const TWICE: &[Edits] = &[
     (
         &[
-            (
-                "<CoSimulation modelIdentifier",
-                "<ModelExchange modelIdentifier=\"good\"/><CoSimulation modelIdentifier",
-            ),
+            EXCHANGED,
             (
                 "<Derivatives>\n      <Unknown index=\"9\" dependencies=\"7 8\"/>\n    </Derivatives>",
                 "",
@@ -547,6 +550,18 @@ const TWICE: &[Edits] = &[
         ],
         "structure.derivative-missing",
         "der(x)",
+    ),
+    // A second state, which is an output, and whose derivative is local.
+    (
+        &[
+            EXCHANGED,
+            (
+                "name=\"pi\" valueReference=\"4\" causality=\"local\" variability=\"constant\"><Real start=\"3.141592653589793\"/>",
+                "name=\"pi\" valueReference=\"4\" causality=\"local\" variability=\"continuous\"><Real derivative=\"11\"/>",
+            ),
+        ],
+        "structure.derivative-missing",
+        "pi",
     ),
     (
         &[(
@@ -557,6 +572,41 @@ const TWICE: &[Edits] = &[
         "level",
     ),
 ];
+
+const EXCHANGED: (&str, &str) = (
+    "<CoSimulation modelIdentifier",
+    "<ModelExchange modelIdentifier=\"good\"/><CoSimulation modelIdentifier",
+);
+
+/// FMI 2.0.4, 2.2.7: inputs and outputs may be derivatives of each other; and one state has one derivative that is listed, whatever
+/// else has its value.
+#[test]
+fn what_is_no_derivative_of_a_state_need_not_be_listed() {
+    let Some(library) = library() else { return };
+    let input = "name=\"u[2]\" valueReference=\"6\" causality=\"input\" variability=\"continuous\"><Real unit=\"m\"";
+    let y = "causality=\"output\" variability=\"continuous\"><Real declaredType=\"Length\"/></ScalarVariable>\n    <ScalarVariable name=\"z\"";
+    let z = "name=\"z\" valueReference=\"10\" causality=\"output\" variability=\"continuous\"><Real declaredType=\"Length\"/>";
+    let derived = |text: &str, of: &str| text.replacen("<Real ", &format!("<Real derivative=\"{of}\" "), 1);
+    let alias = "name=\"z\" valueReference=\"8\" causality=\"output\" variability=\"continuous\"><Real unit=\"m/s\" derivative=\"10\"/>";
+    for (from, to) in [
+        // An input of an input, an output of an output and of an input, an alias of the derivative with an alias of its state.
+        (input, derived(input, "6")),
+        (y, derived(y, "12")),
+        (y, derived(y, "6")),
+        (z, alias.to_owned()),
+    ] {
+        let mut files = good(&library);
+        files[0].1 = edited(&[EXCHANGED, (from, &to)]);
+        let findings = found_in(&files);
+        let told = findings.0.iter().filter(|f| !f.rule.id.starts_with("archive."));
+        assert_eq!(
+            told.map(|f| f.rule.id).collect::<Vec<_>>(),
+            [""; 0],
+            "{to}\n{}",
+            lines(&findings)
+        );
+    }
+}
 
 #[test]
 fn every_defect_of_the_description_is_named() {

@@ -84,6 +84,14 @@ pub enum SspError {
         /// What is wrong, and what to do.
         problem: String,
     },
+    /// A number cannot be converted.
+    #[error("numbers in '{from}' cannot be converted to '{to}'; declare both units, with the same dimensions")]
+    Units {
+        /// Unit that it has.
+        from: String,
+        /// Unit that is wanted.
+        to: String,
+    },
     /// The archive cannot be written.
     #[error("cannot write the SSP: {0}")]
     Zip(#[from] zip::result::ZipError),

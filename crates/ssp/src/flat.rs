@@ -8,6 +8,7 @@ use crate::model::{
     SystemStructure, Unit, Value,
 };
 use crate::parameters::{Given, given};
+use crate::way::{NamedUnit, Stop, Way};
 
 /// A structure without systems inside.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,12 +45,39 @@ pub struct FlatComponent {
 pub struct FlatParameter {
     /// Name of the variable.
     pub name: String,
-    /// Value.
+    /// Value, as it is given; [`Self::in_unit`] is what the variable takes.
     pub value: Value,
     /// What its unit comes to, where that is said.
     pub base: Option<BaseUnit>,
+    /// What mappings and connections make of it.
+    pub way: Way,
     /// The binding that gives it, for messages.
     pub by: String,
+}
+
+impl FlatParameter {
+    /// The value as its variable takes it.
+    ///
+    /// * `unit`: of the variable, where it has one.
+    ///
+    /// # Errors
+    /// [`SspError::Units`].
+    pub fn in_unit(&self, unit: Option<&NamedUnit>) -> Result<Value, SspError> {
+        let Value::Real(value, own) = &self.value else {
+            return Ok(self.value.clone());
+        };
+        let own = own.as_ref().map(|name| NamedUnit {
+            name: name.clone(),
+            base: self.base,
+        });
+        let linear = self.way.linear(own.as_ref(), unit)?;
+        let value = if linear == Linear::NONE {
+            *value
+        } else {
+            linear.apply(*value)
+        };
+        Ok(Value::Real(value, unit.map(|unit| unit.name.clone())))
+    }
 }
 
 /// What feeds an input.
@@ -59,8 +87,8 @@ pub struct FlatConnection {
     pub from: (usize, String),
     /// Component that takes.
     pub to: (usize, String),
-    /// What becomes of values on their way.
-    pub transformation: Linear,
+    /// What becomes of values.
+    pub way: Way,
 }
 
 /// A connector of the system at the top, and that of a component behind it.
@@ -70,8 +98,10 @@ pub struct FlatPort {
     pub name: String,
     /// Component, by its place, and its connector.
     pub at: (usize, String),
-    /// What becomes of values on their way.
-    pub transformation: Linear,
+    /// Its unit, where it says one.
+    pub unit: Option<NamedUnit>,
+    /// What becomes of values between the two.
+    pub way: Way,
 }
 
 /// Takes the systems of a structure apart.
@@ -85,6 +115,7 @@ pub fn flatten(structure: &SystemStructure) -> Result<Flat, SspError> {
         components: Vec::new(),
         places: BTreeMap::new(),
         wires: BTreeMap::new(),
+        stops: BTreeMap::new(),
         held: BTreeMap::new(),
     };
     walk.system("", &structure.system)?;
@@ -100,7 +131,9 @@ struct Walk<'a> {
     /// Places of components by full name.
     places: BTreeMap<String, usize>,
     /// Source of what takes values.
-    wires: BTreeMap<Port, (Port, Linear)>,
+    wires: BTreeMap<Port, (Port, Way)>,
+    /// Units of connectors of systems.
+    stops: BTreeMap<Port, Stop>,
     /// Values of connectors of systems.
     held: BTreeMap<Port, Given>,
 }
@@ -119,6 +152,18 @@ fn shown((element, connector): &Port) -> String {
 
 impl Walk<'_> {
     fn system(&mut self, path: &str, system: &System) -> Result<(), SspError> {
+        for connector in &system.connectors {
+            let stop = match &connector.data {
+                Some(DataType::Real { unit: Some(name) }) => Stop::Unit(NamedUnit {
+                    name: name.clone(),
+                    base: self.units.iter().find(|unit| unit.name == *name).map(|unit| unit.base),
+                }),
+                // That of what it is connected to inside.
+                _ if connector.kind.takes() => Stop::After,
+                _ => Stop::Before,
+            };
+            self.stops.insert((path.to_owned(), connector.name.clone()), stop);
+        }
         for element in &system.elements {
             let name = joined(path, element.name());
             match element {
@@ -160,10 +205,22 @@ impl Walk<'_> {
 
     /// A value of a component; it replaces an earlier one.
     fn give(&mut self, place: usize, value: Given) {
-        let Given { name, value, base, by } = value;
+        let Given {
+            name,
+            value,
+            base,
+            way,
+            by,
+        } = value;
         let parameters = &mut self.components[place].parameters;
         parameters.retain(|parameter| parameter.name != name);
-        parameters.push(FlatParameter { name, value, base, by });
+        parameters.push(FlatParameter {
+            name,
+            value,
+            base,
+            way,
+            by,
+        });
     }
 
     fn bind(&mut self, path: &str, system: &System, binding: &Binding) -> Result<(), SspError> {
@@ -192,7 +249,10 @@ impl Walk<'_> {
             match element {
                 Element::System(system) => return self.deliver(&inner, system, rest.to_owned(), value),
                 Element::Component(_) => {
-                    let value = value.to(rest, None)?;
+                    let value = Given {
+                        name: rest.to_owned(),
+                        ..value
+                    };
                     if let Some(place) = self.places.get(&inner).copied() {
                         self.give(place, value);
                     }
@@ -228,6 +288,16 @@ impl Walk<'_> {
             (true, true) => return Err(wrong("both ends give values; connect an output to an input".to_owned())),
             (false, false) => return Err(wrong("both ends take values; connect an output to an input".to_owned())),
         };
+        for end in [&from, &to] {
+            if let Some(DataType::Other(other)) = &end.connector.data {
+                let problem = format!(
+                    "type {} of {} is not read; connect Real, Integer, Boolean, String or Enumeration",
+                    other.name,
+                    shown(&end.port)
+                );
+                return Err(wrong(problem));
+            }
+        }
         if let (Some(one), Some(other)) = (&from.connector.data, &to.connector.data)
             && one.name() != other.name()
         {
@@ -242,9 +312,9 @@ impl Walk<'_> {
         if connection.transformation.is_some() && !real(&from.connector.data) {
             return Err(wrong("only values of type Real can be transformed".to_owned()));
         }
-        let linear = connection.transformation.unwrap_or(Linear::NONE);
+        let way = Way::hop(connection.transformation, connection.suppress_unit_conversion);
         let source = from.port.clone();
-        if let Some((earlier, _)) = self.wires.insert(to.port, (from.port, linear)) {
+        if let Some((earlier, _)) = self.wires.insert(to.port, (from.port, way)) {
             let problem = format!(
                 "the input is fed twice, by {} and by {}",
                 shown(&earlier),
@@ -256,14 +326,14 @@ impl Walk<'_> {
     }
 
     /// Where the values of a connector come from, and what becomes of them.
-    fn origin(&self, port: &Port) -> Result<(Port, Linear), SspError> {
-        let (mut at, mut linear) = (port.clone(), Linear::NONE);
+    fn origin(&self, port: &Port, (source, way): &(Port, Way)) -> Result<(Port, Way), SspError> {
+        let (mut at, mut way) = (source.clone(), way.clone());
         // Each connector is passed once at most.
         for _ in 0..=self.wires.len() {
             let Some((source, step)) = self.wires.get(&at) else {
-                return Ok((at, linear));
+                return Ok((at, way));
             };
-            linear = step.then(linear);
+            way = step.clone().then(self.stop(&at), way);
             at = source.clone();
         }
         Err(SspError::structure(
@@ -272,34 +342,50 @@ impl Walk<'_> {
         ))
     }
 
+    fn stop(&self, port: &Port) -> Stop {
+        self.stops.get(port).cloned().unwrap_or(Stop::Before)
+    }
+
+    /// The unit that a connector of a system says.
+    fn unit(&self, port: &Port) -> Option<NamedUnit> {
+        match self.stops.get(port) {
+            Some(Stop::Unit(unit)) => Some(unit.clone()),
+            _ => None,
+        }
+    }
+
     fn finish(mut self, system: &System, experiment: Option<Experiment>) -> Result<Flat, SspError> {
         let (mut connections, mut inputs, mut outputs) = (Vec::new(), Vec::new(), Vec::new());
-        let takers: Vec<Port> = self.wires.keys().cloned().collect();
-        for port in takers {
-            let (source, transformation) = self.origin(&port)?;
+        let wires = self.wires.iter();
+        let wires: Vec<(Port, (Port, Way))> = wires
+            .map(|(port, wire)| Ok((port.clone(), self.origin(port, wire)?)))
+            .collect::<Result<_, SspError>>()?;
+        for (port, (source, way)) in wires {
             let taker = self.places.get(&port.0).copied();
             let giver = self.places.get(&source.0).copied();
             match (giver, taker) {
                 (Some(from), Some(to)) => connections.push(FlatConnection {
                     from: (from, source.1),
                     to: (to, port.1),
-                    transformation,
+                    way,
                 }),
                 (Some(from), None) if port.0.is_empty() => outputs.push(FlatPort {
+                    unit: self.unit(&port),
                     name: port.1,
                     at: (from, source.1),
-                    transformation,
+                    way,
                 }),
                 (None, Some(to)) => {
                     if let Some(value) = self.held.get(&source) {
-                        let value = value.to(&port.1, Some(transformation))?;
+                        let value = value.through(self.stop(&source), &way, &port.1)?;
                         self.give(to, value);
                     }
                     if source.0.is_empty() {
                         inputs.push(FlatPort {
+                            unit: self.unit(&source),
                             name: source.1,
                             at: (to, port.1),
-                            transformation,
+                            way,
                         });
                     }
                 }

@@ -12,12 +12,14 @@ mod package;
 mod parameters;
 mod read;
 mod tree;
+mod way;
 mod write;
 
 pub use error::SspError;
 pub use flat::{Flat, FlatComponent, FlatConnection, FlatParameter, FlatPort, flatten};
 pub use model::{
     BaseUnit, Binding, Component, Connection, Connector, DataType, Element, End, Experiment, FMU, Kind, Linear,
-    MappingEntry, Parameter, ParameterSet, System, SystemStructure, Unit, Value,
+    MappingEntry, Other, Parameter, ParameterSet, System, SystemStructure, Unit, Value,
 };
 pub use package::{Package, STRUCTURE};
+pub use way::{NamedUnit, Way};

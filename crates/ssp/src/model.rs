@@ -211,17 +211,29 @@ pub enum DataType {
     String,
     /// An item of an enumeration of this name.
     Enumeration(String),
+    /// Another type, as Binary, which is kept and cannot be connected.
+    Other(Other),
+}
+
+/// What is not read, by its name in a file, as `Binary`, and its attributes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Other {
+    /// Name.
+    pub name: String,
+    /// Names and values of its attributes.
+    pub attributes: Vec<(String, String)>,
 }
 
 impl DataType {
     /// As in a file.
-    pub fn name(&self) -> &'static str {
+    pub fn name(&self) -> &str {
         match self {
             Self::Real { .. } => "Real",
             Self::Integer => "Integer",
             Self::Boolean => "Boolean",
             Self::String => "String",
             Self::Enumeration(_) => "Enumeration",
+            Self::Other(other) => &other.name,
         }
     }
 }
@@ -269,8 +281,10 @@ pub struct Connection {
     pub start: End,
     /// The other.
     pub end: End,
-    /// What becomes of values on their way.
+    /// What becomes of values on their way, after their unit was converted.
     pub transformation: Option<Linear>,
+    /// Whether units are not converted: the transformation stands for that.
+    pub suppress_unit_conversion: bool,
 }
 
 impl Connection {
@@ -280,6 +294,7 @@ impl Connection {
             start,
             end,
             transformation: None,
+            suppress_unit_conversion: false,
         }
     }
 }
@@ -347,8 +362,10 @@ pub struct MappingEntry {
     pub source: String,
     /// Name in the element.
     pub target: String,
-    /// What becomes of the value.
+    /// What becomes of the value, after its unit was converted.
     pub transformation: Option<Linear>,
+    /// Whether its unit is not converted: the transformation stands for that.
+    pub suppress_unit_conversion: bool,
 }
 
 /// Values by name.
@@ -388,17 +405,20 @@ pub enum Value {
     String(String),
     /// An item of an enumeration: its name or its number, as it stands.
     Enumeration(String),
+    /// A value of another type, as Binary, which is kept and cannot be given to anybody.
+    Other(Other),
 }
 
 impl Value {
     /// Name of its type, as in a file.
-    pub fn type_name(&self) -> &'static str {
+    pub fn type_name(&self) -> &str {
         match self {
             Self::Real(..) => "Real",
             Self::Integer(_) => "Integer",
             Self::Boolean(_) => "Boolean",
             Self::String(_) => "String",
             Self::Enumeration(_) => "Enumeration",
+            Self::Other(other) => &other.name,
         }
     }
 }
@@ -411,6 +431,7 @@ impl fmt::Display for Value {
             Self::Integer(value) => write!(f, "{value}"),
             Self::Boolean(value) => write!(f, "{value}"),
             Self::String(text) | Self::Enumeration(text) => f.write_str(text),
+            Self::Other(other) => f.write_str(&other.name),
         }
     }
 }

@@ -143,14 +143,19 @@ fn values(system: &System, found: &mut BTreeMap<String, String>) -> Result<(), S
     });
     for binding in system.bindings.iter().chain(own) {
         let Some(source) = &binding.source else { continue };
+        // What lies elsewhere is there already.
+        let text = decoded(source).filter(|text| !has_scheme(text));
+        let Some(name) = text.as_deref().and_then(inside) else {
+            continue;
+        };
         let text = binding.values.to_xml();
-        if found.get(source).is_some_and(|other| *other != text) {
+        if found.get(&name).is_some_and(|other| *other != text) {
             return Err(SspError::structure(
                 format!("binding '{source}'"),
                 "stands twice with different values; give each set a file of its own",
             ));
         }
-        found.insert(source.clone(), text);
+        found.insert(name, text);
     }
     for element in &system.elements {
         if let Element::System(inner) = element {
@@ -179,8 +184,7 @@ impl Place {
             by: by.to_owned(),
             name: uri.to_owned(),
         };
-        let decode = |text: &str| percent_decode_str(text).decode_utf8().map(|text| text.into_owned());
-        let text = decode(uri).map_err(|_| wrong("is no URI of UTF-8 text"))?;
+        let text = decoded(uri).ok_or_else(|| wrong("is no URI of UTF-8 text"))?;
         if let Some(rest) = text.strip_prefix("file:") {
             let absolute = match rest.strip_prefix("//") {
                 None => rest,
@@ -200,19 +204,11 @@ impl Place {
                 Ok(bytes) => Ok(bytes),
             };
         }
-        // A scheme has letters before its colon, and no slash.
-        let scheme = text.split_once(':').is_some_and(|(scheme, _)| !scheme.contains('/'));
-        if scheme {
+        if has_scheme(&text) {
             return Err(wrong("is of another scheme than file:"));
         }
-        let relative = text.strip_prefix("./").unwrap_or(&text);
-        let climbs = Path::new(relative)
-            .components()
-            .any(|step| !matches!(step, Step::Normal(_)));
-        if relative.is_empty() || climbs {
-            return Err(wrong("does not lead into the SSP"));
-        }
-        match self.bytes(path, relative) {
+        let name = inside(&text).ok_or_else(|| wrong("does not lead into the SSP"))?;
+        match self.bytes(path, &name) {
             Err(Lost::Absent) => Err(missing()),
             Err(Lost::Other(error)) => Err(error),
             Ok(bytes) => Ok(bytes),
@@ -232,6 +228,37 @@ impl Place {
             },
         }
     }
+}
+
+/// A scheme has letters before its colon, and no slash.
+fn has_scheme(uri: &str) -> bool {
+    uri.split_once(':').is_some_and(|(scheme, _)| !scheme.contains('/'))
+}
+
+fn decoded(uri: &str) -> Option<String> {
+    let text = percent_decode_str(uri).decode_utf8().ok()?;
+    Some(text.into_owned())
+}
+
+/// The name of a file in the SSP, of a relative path without its steps to the same folder and back; `None` where it leads out.
+fn inside(path: &str) -> Option<String> {
+    let mut steps: Vec<&str> = Vec::new();
+    // An absolute path has nothing before its first slash.
+    if path.starts_with('/') {
+        return None;
+    }
+    for step in path.split('/') {
+        match step {
+            "" | "." => {}
+            ".." => {
+                steps.pop()?;
+            }
+            // A drive, and whatever else a system has its own meaning for.
+            _ if Path::new(step).components().all(|c| matches!(c, Step::Normal(_))) => steps.push(step),
+            _ => return None,
+        }
+    }
+    (!steps.is_empty()).then(|| steps.join("/"))
 }
 
 fn read_limited(file: io::Result<impl Read>, path: &Path, name: &str) -> Result<Vec<u8>, Lost> {

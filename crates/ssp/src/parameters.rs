@@ -1,7 +1,8 @@
 //! What a binding gives its element: values after prefix and mapping.
 
 use crate::SspError;
-use crate::model::{BaseUnit, Binding, Linear, Parameter, Unit, Value};
+use crate::model::{BaseUnit, Binding, Parameter, Unit, Value};
+use crate::way::{Stop, Way};
 
 /// A value on its way to an element.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,32 +11,43 @@ pub(crate) struct Given {
     pub(crate) value: Value,
     /// What its unit comes to, where that is said.
     pub(crate) base: Option<BaseUnit>,
+    /// What becomes of it.
+    pub(crate) way: Way,
     /// The binding, for messages.
     pub(crate) by: String,
 }
 
 impl Given {
-    /// The same for another name, changed on its way.
-    pub(crate) fn to(&self, name: &str, transformation: Option<Linear>) -> Result<Self, SspError> {
-        let value = match (&self.value, transformation) {
-            (value, None | Some(Linear::NONE)) => value.clone(),
-            (Value::Real(value, unit), Some(linear)) => Value::Real(linear.apply(*value), unit.clone()),
-            (other, Some(_)) => {
-                return Err(SspError::structure(
-                    &self.by,
-                    format!(
-                        "'{}' is {} and cannot be transformed; only Real can",
-                        self.name,
-                        other.type_name()
-                    ),
-                ));
-            }
+    fn readable(&self) -> Result<(), SspError> {
+        let Value::Other(other) = &self.value else {
+            return Ok(());
         };
+        let problem = format!(
+            "'{}' is of type {}, which is not read; give Real, Integer, Boolean, String or Enumeration",
+            self.name, other.name
+        );
+        Err(SspError::structure(&self.by, problem))
+    }
+
+    /// The same for another name, on another way.
+    fn under(&self, name: &str, way: Way) -> Result<Self, SspError> {
+        if way.transforms() && !matches!(self.value, Value::Real(..)) {
+            let what = self.value.type_name();
+            let problem = format!("'{}' is {what} and cannot be transformed; only Real can", self.name);
+            return Err(SspError::structure(&self.by, problem));
+        }
         Ok(Self {
             name: name.to_owned(),
-            value,
+            way,
             ..self.clone()
         })
+    }
+
+    /// The same for a connector inside.
+    ///
+    /// * `stop`: unit of the connector that has the value now.
+    pub(crate) fn through(&self, stop: Stop, way: &Way, name: &str) -> Result<Self, SspError> {
+        self.under(name, self.way.clone().then(stop, way.clone()))
     }
 }
 
@@ -59,10 +71,12 @@ pub(crate) fn given(owner: &str, binding: &Binding, units: &[Unit]) -> Result<Ve
             name: format!("{}{name}", binding.prefix),
             value: value.clone(),
             base: base(value),
+            way: Way::default(),
             by: by.clone(),
         })
         .collect();
     let Some(entries) = &binding.mapping else {
+        plain.iter().try_for_each(Given::readable)?;
         return Ok(plain);
     };
     let mapped = entries.iter().map(|entry| {
@@ -77,7 +91,9 @@ pub(crate) fn given(owner: &str, binding: &Binding, units: &[Unit]) -> Result<Ve
                 ),
             )
         })?;
-        source.to(&entry.target, entry.transformation)
+        source.readable()?;
+        let way = Way::hop(entry.transformation, entry.suppress_unit_conversion);
+        source.under(&entry.target, way)
     });
     mapped.collect()
 }

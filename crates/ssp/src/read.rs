@@ -3,12 +3,15 @@
 use crate::SspError;
 use crate::model::{
     BaseUnit, Binding, Component, Connection, Connector, DataType, Element, End, Experiment, FMU, Kind, Linear,
-    MappingEntry, Parameter, ParameterSet, System, SystemStructure, Unit, Value,
+    MappingEntry, Other, Parameter, ParameterSet, System, SystemStructure, Unit, Value,
 };
 use crate::tree::{Node, parse};
 
 /// Annotations of the Open Simulation Platform.
 pub(crate) const OSP: &str = "com.opensimulationplatform";
+
+/// Attribute of connections and of entries of mappings.
+pub(crate) const SUPPRESS: &str = "suppressUnitConversion";
 
 /// Gives the bytes of a file that a structure names: who names it, and its URI.
 pub(crate) type Files<'a> = dyn FnMut(&str, &str) -> Result<Vec<u8>, SspError> + 'a;
@@ -40,6 +43,14 @@ pub(crate) fn structure(file: &str, bytes: &[u8], files: &mut Files<'_>) -> Resu
     })
 }
 
+/// A type that is not read.
+fn other(name: &str, node: &Node) -> Other {
+    Other {
+        name: name.to_owned(),
+        attributes: node.attributes.clone(),
+    }
+}
+
 struct Reader<'a, 'f> {
     /// The file that is read, for messages.
     file: &'a str,
@@ -69,6 +80,15 @@ impl Reader<'_, '_> {
         parsed.map_err(|_| self.wrong(node, format!("{name}='{text}' is not a number of its type")))
     }
 
+    fn boolean(&self, node: &Node, name: &str) -> Result<Option<bool>, SspError> {
+        match node.attribute(name).map(str::trim) {
+            None => Ok(None),
+            Some("true" | "1") => Ok(Some(true)),
+            Some("false" | "0") => Ok(Some(false)),
+            Some(other) => Err(self.wrong(node, format!("{name}='{other}' is not true or false"))),
+        }
+    }
+
     fn experiment(&self, node: &Node) -> Result<Experiment, SspError> {
         let annotations = node.list("ssd:Annotations").iter();
         let mut step_size = None;
@@ -86,18 +106,15 @@ impl Reader<'_, '_> {
     }
 
     fn system(&mut self, node: &Node) -> Result<System, SspError> {
-        if let Some(dictionaries) = node.child("ssd:SignalDictionaries") {
-            return Err(self.wrong(
-                dictionaries,
-                "signal dictionaries are not read; connect the elements themselves",
-            ));
-        }
         let mut elements: Vec<Element> = Vec::new();
         for child in node.list("ssd:Elements") {
             let element = match child.name.as_str() {
                 "ssd:Component" => Element::Component(self.component(child)?),
                 "ssd:System" => Element::System(self.system(child)?),
-                _ => return Err(self.wrong(child, "only ssd:Component and ssd:System are read as elements")),
+                _ => {
+                    let problem = "only ssd:Component and ssd:System are read as elements; connect them without a signal dictionary";
+                    return Err(self.wrong(child, problem));
+                }
             };
             if elements.iter().any(|other| other.name() == element.name()) {
                 return Err(self.wrong(child, "a second element of this name; give each a name of its own"));
@@ -166,10 +183,7 @@ impl Reader<'_, '_> {
                     .required(child, "name")
                     .map(|name| DataType::Enumeration(name.to_owned())),
                 "Annotations" => return None,
-                other => Err(self.wrong(
-                    node,
-                    format!("type {other} is not read; give Real, Integer, Boolean, String or Enumeration"),
-                )),
+                name => Ok(DataType::Other(other(name, child))),
             })
         });
         types.next().transpose()
@@ -178,12 +192,6 @@ impl Reader<'_, '_> {
     fn connection(&self, node: &Node) -> Result<Connection, SspError> {
         if node.name != "ssd:Connection" {
             return Err(self.wrong(node, "is no ssd:Connection"));
-        }
-        if matches!(node.attribute("suppressUnitConversion"), Some("true" | "1")) {
-            return Err(self.wrong(
-                node,
-                "suppressUnitConversion is not read; say the same unit at both ends",
-            ));
         }
         let end = |side: &str| -> Result<End, SspError> {
             Ok(End {
@@ -195,6 +203,7 @@ impl Reader<'_, '_> {
             start: end("start")?,
             end: end("end")?,
             transformation: self.transformation(node)?,
+            suppress_unit_conversion: self.boolean(node, SUPPRESS)?.unwrap_or(false),
         })
     }
 
@@ -225,22 +234,7 @@ impl Reader<'_, '_> {
     fn binding(&mut self, owner: &Node, node: &Node) -> Result<Binding, SspError> {
         let by = format!("the parameter binding of {}", owner.label());
         let source = node.attribute("source");
-        // Relative to the component's file rather than to the structure's.
-        if source.is_some() && node.attribute("sourceBase") == Some("component") {
-            return Err(self.wrong(
-                node,
-                "sourceBase 'component' is not read; put the values beside the .ssd file",
-            ));
-        }
-        if let Some(other) = node
-            .attribute("type")
-            .filter(|t| *t != "application/x-ssp-parameter-set")
-        {
-            return Err(self.wrong(
-                node,
-                format!("values of type '{other}' are not read; give application/x-ssp-parameter-set"),
-            ));
-        }
+        self.readable(node, "application/x-ssp-parameter-set")?;
         let values = match (source, node.child("ssd:ParameterValues")) {
             (Some(uri), None) => {
                 let bytes = (self.files)(&by, uri)?;
@@ -257,6 +251,7 @@ impl Reader<'_, '_> {
             _ => return Err(self.wrong(node, "give either source or ssd:ParameterValues")),
         };
         let mapping = node.child("ssd:ParameterMapping").map(|mapping| {
+            self.readable(mapping, "application/x-ssp-parameter-mapping")?;
             if let Some(uri) = mapping.attribute("source") {
                 let bytes = (self.files)(&by, uri)?;
                 let inner = Reader {
@@ -276,6 +271,21 @@ impl Reader<'_, '_> {
         })
     }
 
+    /// Checks where a binding or mapping has its file, and of which type that is.
+    fn readable(&self, node: &Node, media_type: &str) -> Result<(), SspError> {
+        // Relative to the component's file rather than to the structure's.
+        if node.attribute("source").is_some() && node.attribute("sourceBase") == Some("component") {
+            return Err(self.wrong(
+                node,
+                "sourceBase 'component' is not read; put the file beside the .ssd file",
+            ));
+        }
+        match node.attribute("type").filter(|other| *other != media_type) {
+            Some(other) => Err(self.wrong(node, format!("type '{other}' is not read; give {media_type}"))),
+            None => Ok(()),
+        }
+    }
+
     fn mapping(&self, node: &Node) -> Result<Vec<MappingEntry>, SspError> {
         if node.name != "ssm:ParameterMapping" {
             return Err(self.wrong(node, "is not ssm:ParameterMapping of SSP 1.0"));
@@ -286,6 +296,7 @@ impl Reader<'_, '_> {
                 source: self.required(entry, "source")?.to_owned(),
                 target: self.required(entry, "target")?.to_owned(),
                 transformation: self.transformation(entry)?,
+                suppress_unit_conversion: self.boolean(entry, SUPPRESS)?.unwrap_or(false),
             })
         });
         entries.collect()
@@ -322,19 +333,10 @@ impl Reader<'_, '_> {
                 typed.attribute("unit").map(str::to_owned),
             ),
             "ssv:Integer" => Value::Integer(self.number(typed, "value")?.ok_or_else(none)?),
-            "ssv:Boolean" => Value::Boolean(match text()?.trim() {
-                "true" | "1" => true,
-                "false" | "0" => false,
-                other => return Err(self.wrong(node, format!("value='{other}' is not true or false"))),
-            }),
+            "ssv:Boolean" => Value::Boolean(self.boolean(typed, "value")?.ok_or_else(none)?),
             "ssv:String" => Value::String(text()?.to_owned()),
             "ssv:Enumeration" => Value::Enumeration(text()?.to_owned()),
-            other => {
-                return Err(self.wrong(
-                    node,
-                    format!("type {other} is not read; give Real, Integer, Boolean, String or Enumeration"),
-                ));
-            }
+            name => Value::Other(other(name.trim_start_matches("ssv:"), typed)),
         };
         Ok(Parameter {
             name: self.required(node, "name")?.to_owned(),

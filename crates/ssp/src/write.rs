@@ -8,7 +8,7 @@ use crate::model::{
     Binding, Component, Connection, Connector, DataType, Element, Experiment, Linear, Parameter, ParameterSet, System,
     SystemStructure, Unit, Value,
 };
-use crate::read::OSP;
+use crate::read::{OSP, SUPPRESS};
 use crate::tree::{SPACES, namespace};
 
 /// Namespace of the annotation that says the step.
@@ -135,6 +135,7 @@ fn connectors(out: &mut Lines, connectors: &[Connector]) {
         let detail = match data {
             DataType::Real { unit } => unit.iter().map(|unit| ("unit".to_owned(), unit.clone())).collect(),
             DataType::Enumeration(name) => named(name),
+            DataType::Other(other) => other.attributes.clone(),
             _ => Vec::new(),
         };
         out.empty(&format!("ssc:{}", data.name()), &detail);
@@ -168,10 +169,11 @@ fn bindings(out: &mut Lines, bindings: &[Binding]) {
             out.open("ssd:ParameterMapping", &[]);
             out.open("ssm:ParameterMapping", &[("version".to_owned(), "1.0".to_owned())]);
             for entry in entries {
-                let attributes = [
+                let mut attributes = vec![
                     ("source".to_owned(), entry.source.clone()),
                     ("target".to_owned(), entry.target.clone()),
                 ];
+                suppressed(&mut attributes, entry.suppress_unit_conversion);
                 around(out, "ssm:MappingEntry", &attributes, entry.transformation);
             }
             out.close();
@@ -188,7 +190,12 @@ fn connection(out: &mut Lines, connection: &Connection) {
         optional(&mut attributes, &format!("{side}Element"), end.element.as_ref());
         attributes.push((format!("{side}Connector"), end.connector.clone()));
     }
+    suppressed(&mut attributes, connection.suppress_unit_conversion);
     around(out, "ssd:Connection", &attributes, connection.transformation);
+}
+
+fn suppressed(attributes: &mut Attributes, suppress: bool) {
+    attributes.extend(suppress.then(|| (SUPPRESS.to_owned(), "true".to_owned())));
 }
 
 /// An element that may hold a transformation.
@@ -222,14 +229,16 @@ fn parameter_set(out: &mut Lines, set: &ParameterSet, mut attributes: Attributes
         let mut attributes = named(name);
         optional(&mut attributes, "description", description.as_ref());
         out.open("ssv:Parameter", &attributes);
-        let text = match value {
-            Value::Real(real, _) => number(*real),
-            other => other.to_string(),
+        let said = |text: String| vec![("value".to_owned(), text)];
+        let attributes = match value {
+            Value::Real(real, unit) => {
+                let mut attributes = said(number(*real));
+                optional(&mut attributes, "unit", unit.as_ref());
+                attributes
+            }
+            Value::Other(other) => other.attributes.clone(),
+            other => said(other.to_string()),
         };
-        let mut attributes = vec![("value".to_owned(), text)];
-        if let Value::Real(_, Some(unit)) = value {
-            attributes.push(("unit".to_owned(), unit.clone()));
-        }
         out.empty(&format!("ssv:{}", value.type_name()), &attributes);
         out.close();
     }

@@ -2,11 +2,18 @@
 
 use ssp::{
     BaseUnit, Binding, Component, Connection, Connector, DataType, Element, End, Experiment, Kind, Linear,
-    MappingEntry, Package, Parameter, ParameterSet, SystemStructure, Unit, Value,
+    MappingEntry, Other, Package, Parameter, ParameterSet, SystemStructure, Unit, Value,
 };
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{Cursor, Read};
+
+fn other(attribute: &str, value: &str) -> Other {
+    Other {
+        name: "Binary".to_owned(),
+        attributes: vec![(attribute.to_owned(), value.to_owned())],
+    }
+}
 
 fn set(name: &str) -> ParameterSet {
     let parameter = |name: &str, value| Parameter {
@@ -24,6 +31,7 @@ fn set(name: &str) -> ParameterSet {
             parameter("on", Value::Boolean(false)),
             parameter("file", Value::String("  two  blanks\tand a tab".to_owned())),
             parameter("mode", Value::Enumeration("slow".to_owned())),
+            parameter("blob", Value::Other(other("value", "00ff"))),
         ],
         units: vec![Unit {
             name: "m2/s5".to_owned(),
@@ -53,6 +61,11 @@ fn whole() -> SystemStructure {
     let mut world = Component::new("world", "resources/world.fmu")
         .with(Connector::new("y[1,2]", Kind::Output, real(Some("m2/s5"))))
         .with(Connector::new("n", Kind::Output, DataType::Integer))
+        .with(Connector::new(
+            "log",
+            Kind::Output,
+            DataType::Other(other("mime-type", "text/plain")),
+        ))
         .with(Connector::new("c", Kind::CalculatedParameter, real(None)));
     world.bindings.push(Binding::file("resources/world.ssv", set("there")));
     let mut filter = Component::new("filter", "resources/filter.fmu")
@@ -80,6 +93,7 @@ fn whole() -> SystemStructure {
                 factor: 1e-3,
                 offset: -0.5,
             }),
+            suppress_unit_conversion: true,
         }]),
     });
     let mut inner = ssp::System {
@@ -98,6 +112,7 @@ fn whole() -> SystemStructure {
             factor: 57.0,
             offset: 0.0,
         }),
+        suppress_unit_conversion: true,
         ..Connection::new(End::of("world", "y[1,2]"), End::of("inner", "in"))
     });
     structure

@@ -2,86 +2,20 @@
 
 #![allow(clippy::unwrap_used, reason = "what fails in a helper is a failed test")]
 
-use ssp::{Flat, Linear, Package, SspError, Value, flatten};
+mod common;
+
+use common::{component, inline, linear, read, read_folder, real, set, structure, value, wire};
+use ssp::{Flat, Linear, Package, Value, flatten};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-
-const HEAD: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
-<s:SystemStructureDescription version="1.0" name="hand"
-    xmlns:s="http://ssp-standard.org/SSP1/SystemStructureDescription"
-    xmlns="http://ssp-standard.org/SSP1/SystemStructureCommon"
-    xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues"
-    xmlns:ssm="http://ssp-standard.org/SSP1/SystemStructureParameterMapping">
-"#;
-
-/// A structure whose system holds this; its prefixes are not the usual ones, which is what namespaces are for.
-fn structure(inside: &str, after: &str) -> String {
-    format!("{HEAD}<s:System name=\"top\">\n{inside}\n</s:System>\n{after}</s:SystemStructureDescription>\n")
-}
-
-fn read_folder(files: &[(&str, &str)]) -> Result<Package, SspError> {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, text) in files {
-        let path = folder.path().join(name);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, text).unwrap();
-    }
-    Package::open(folder.path())
-}
-
-fn read(inside: &str) -> Result<Flat, SspError> {
-    flatten(read_folder(&[("SystemStructure.ssd", &structure(inside, ""))])?.structure())
-}
-
-fn component(name: &str, connectors: &str, more: &str) -> String {
-    format!(
-        "<s:Component name=\"{name}\" source=\"resources/{name}.fmu\"><s:Connectors>{connectors}</s:Connectors>{more}</s:Component>"
-    )
-}
-
-fn real(name: &str, kind: &str) -> String {
-    format!("<s:Connector name=\"{name}\" kind=\"{kind}\"><Real unit=\"m\"/></s:Connector>")
-}
-
-fn wire(from: &str, to: &str, inside: &str) -> String {
-    let end = |side: &str, text: &str| match text.split_once('.') {
-        Some((element, connector)) => format!("{side}Element=\"{element}\" {side}Connector=\"{connector}\""),
-        None => format!("{side}Connector=\"{text}\""),
-    };
-    format!(
-        "<s:Connection {} {}>{inside}</s:Connection>",
-        end("start", from),
-        end("end", to)
-    )
-}
-
-fn linear(factor: f64, offset: f64) -> String {
-    format!("<LinearTransformation factor=\"{factor}\" offset=\"{offset}\"/>")
-}
-
-fn set(parameters: &str) -> String {
-    format!(
-        "<ssv:ParameterSet version=\"1.0\" name=\"given\"><ssv:Parameters>{parameters}</ssv:Parameters></ssv:ParameterSet>"
-    )
-}
-
-fn inline(parameters: &str, more: &str) -> String {
-    format!(
-        "<s:ParameterBindings><s:ParameterBinding><s:ParameterValues>{}</s:ParameterValues>{more}</s:ParameterBinding></s:ParameterBindings>",
-        set(parameters)
-    )
-}
-
-fn value(name: &str, text: &str) -> String {
-    format!("<ssv:Parameter name=\"{name}\"><ssv:Real value=\"{text}\"/></ssv:Parameter>")
-}
 
 fn shown(flat: &Flat) -> Vec<String> {
     let name = |(place, connector): &(usize, String)| format!("{}.{connector}", flat.components[*place].name);
     let connections = flat.connections.iter();
     connections
         .map(|c| {
-            let Linear { factor, offset } = c.transformation;
+            let Linear { factor, offset } = c.way.linear(None, None).unwrap();
             format!("{} -> {} *{factor} +{offset}", name(&c.from), name(&c.to))
         })
         .collect()
@@ -134,7 +68,7 @@ fn connectors_of_the_system_lead_to_those_of_components() {
         ("est", &(0, "y".to_owned()))
     );
     assert_eq!(
-        flat.outputs[0].transformation,
+        flat.outputs[0].way.linear(None, None).unwrap(),
         Linear {
             factor: 3.0,
             offset: 0.0
@@ -160,10 +94,13 @@ fn values_reach_components_from_every_level() {
     );
     let flat = read(&text).unwrap();
     let parameters = &flat.components[0].parameters;
-    let got: Vec<(&str, &Value)> = parameters.iter().map(|p| (p.name.as_str(), &p.value)).collect();
+    let taken = parameters.iter().map(|p| (p.name.as_str(), p.in_unit(None).unwrap()));
     let number = |x: f64| Value::Real(x, None);
     let (one, two, four, gain) = (number(1.0), number(2.0), number(4.0), number(30.5));
-    assert_eq!(got, [("q", &one), ("k", &two), ("deep.k", &four), ("g", &gain)]);
+    assert_eq!(
+        taken.collect::<Vec<_>>(),
+        [("q", one), ("k", two), ("deep.k", four), ("g", gain)]
+    );
 }
 
 #[test]
@@ -203,9 +140,12 @@ fn values_come_from_files_through_prefixes_and_mappings() {
         ("on", Value::Boolean(true)),
         ("file", Value::String("a & b".to_owned())),
         ("mode", Value::Enumeration("slow".to_owned())),
-        ("m", Value::Real(1500.0, Some("t".to_owned()))),
+        ("m", Value::Real(1.5, Some("t".to_owned()))),
     ];
     assert_eq!(got, expected);
+    // A thousand times 1.5 t.
+    let mapped = &flat.components[0].parameters[5];
+    assert_eq!(mapped.in_unit(None).unwrap(), Value::Real(1500.0, None));
     assert!((flat.components[0].parameters[0].base.unwrap().factor - 1000.0).abs() < f64::EPSILON);
 }
 
@@ -222,6 +162,13 @@ fn what_is_wrong_is_named() {
         format!("<s:Elements>{a}{b}</s:Elements><s:Connections>{more}</s:Connections>")
     };
     let one = |connectors: &str, more: &str| format!("<s:Elements>{}</s:Elements>", component("a", connectors, more));
+    let mapped = |attributes: &str| {
+        let entry = "<ssm:ParameterMapping version=\"1.0\"><ssm:MappingEntry source=\"k\" target=\"k\"/></ssm:ParameterMapping>";
+        let mapping = format!("<s:ParameterMapping {attributes}>{entry}</s:ParameterMapping>");
+        inline(&value("k", "1"), &mapping)
+    };
+    let bytes = "<s:Connector name=\"given\" kind=\"output\"><Binary/></s:Connector><s:Connector name=\"taken\" kind=\"input\"/>";
+    let blob = "<ssv:Parameter name=\"blob\"><ssv:Binary value=\"00ff\"/></ssv:Parameter>";
     let looped = format!(
         "<s:Elements><s:System name=\"sub\"><s:Connectors>{}{}</s:Connectors><s:Connections>{}</s:Connections></s:System></s:Elements>\
          <s:Connections>{}</s:Connections>",
@@ -273,9 +220,17 @@ fn what_is_wrong_is_named() {
         ),
         (
             both(
-                "<s:Connection startElement=\"a\" startConnector=\"y\" endElement=\"b\" endConnector=\"u\" suppressUnitConversion=\"true\"/>",
+                "<s:Connection startElement=\"a\" startConnector=\"y\" endElement=\"b\" endConnector=\"u\" suppressUnitConversion=\"yes\"/>",
             ),
-            "suppressUnitConversion is not read",
+            "suppressUnitConversion='yes' is not true or false",
+        ),
+        (
+            one("", &mapped("sourceBase=\"component\" source=\"m.ssm\"")),
+            "ssd:ParameterMapping: sourceBase 'component' is not read",
+        ),
+        (
+            one("", &mapped("type=\"text/csv\"")),
+            "ssd:ParameterMapping: type 'text/csv' is not read; give application/x-ssp-parameter-mapping",
         ),
         (looped, "is fed by itself"),
         (types, "the types differ: Real and Integer"),
@@ -286,8 +241,16 @@ fn what_is_wrong_is_named() {
             "kind 'inout' is not read; give input, output",
         ),
         (
-            one("<s:Connector name=\"y\" kind=\"input\"><Binary/></s:Connector>", ""),
-            "type Binary is not read",
+            format!(
+                "{}<s:Connections>{}</s:Connections>",
+                one(bytes, ""),
+                wire("a.given", "a.taken", "")
+            ),
+            "connection from a.given to a.taken: type Binary of a.given is not read",
+        ),
+        (
+            one("", &inline(blob, "")),
+            "binding 'given' of component 'a': 'blob' is of type Binary, which is not read",
         ),
         (
             one("<s:Connector kind=\"input\"/>", ""),
@@ -379,7 +342,6 @@ fn what_is_wrong_is_named() {
             "<s:Elements><s:SignalDictionaryReference name=\"d\" dictionary=\"e\"/></s:Elements>".to_owned(),
             "only ssd:Component and ssd:System",
         ),
-        ("<s:SignalDictionaries/>".to_owned(), "signal dictionaries are not read"),
         (
             format!("<s:Elements>{0}{0}</s:Elements>", component("a", "", "")),
             "a second element of this name",
@@ -388,6 +350,80 @@ fn what_is_wrong_is_named() {
     ] {
         let error = read(&text).map(|flat| shown(&flat)).unwrap_err().to_string();
         assert!(error.contains(says), "{says}\n{error}\n{text}");
+    }
+}
+
+/// What nothing leads to is no reason to refuse the rest.
+#[test]
+fn parts_that_are_not_needed_are_passed_by() {
+    let bytes = "<s:Connector name=\"log\" kind=\"output\"><Binary mime-type=\"text/plain\"/></s:Connector>";
+    let blob = "<ssv:Parameter name=\"blob\"><ssv:Binary value=\"00ff\"/></ssv:Parameter>";
+    let mapping = "<s:ParameterMapping><ssm:ParameterMapping version=\"1.0\"><ssm:MappingEntry source=\"k\" target=\"k\"/>\
+         </ssm:ParameterMapping></s:ParameterMapping>";
+    let binding = inline(&format!("{blob}{}", value("k", "2")), mapping);
+    let text = format!(
+        "<s:Elements>{}{}</s:Elements><s:Connections>{}</s:Connections><s:SignalDictionaries>\
+         <s:SignalDictionary name=\"d\"/></s:SignalDictionaries>",
+        component("a", &format!("{}{bytes}", real("y", "output")), &binding),
+        component("b", &real("u", "input"), ""),
+        wire("a.y", "b.u", ""),
+    );
+    let flat = read(&text).unwrap();
+    assert_eq!(shown(&flat), ["a.y -> b.u *1 +0"]);
+    assert_eq!(flat.components[0].parameters.len(), 1);
+    assert_eq!(
+        flat.components[0].parameters[0].in_unit(None).unwrap(),
+        Value::Real(2.0, None)
+    );
+}
+
+/// References as RFC 3986 has them: what leads back into the SSP is read, and what leads out is refused.
+#[test]
+fn steps_up_stay_inside() {
+    let ssv = set(&value("k", "1")).replace(
+        "<ssv:ParameterSet",
+        "<ssv:ParameterSet xmlns:ssv=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\"",
+    );
+    for (source, found) in [
+        ("resources/x.ssv", true),
+        ("./resources/../resources/x.ssv", true),
+        ("a/b/../../resources/./x.ssv", true),
+        ("resources//x.ssv", true),
+        ("%72esources/%2E%2E/resources/x.ssv", true),
+        ("../x.ssv", false),
+        ("resources/../../x.ssv", false),
+        ("resources/%2e%2e/%2e%2e/x.ssv", false),
+        ("/resources/x.ssv", false),
+        ("resources/..", false),
+        ("./", false),
+    ] {
+        let binding = format!("<s:ParameterBindings><s:ParameterBinding source=\"{source}\"/></s:ParameterBindings>");
+        let text = structure(
+            &format!("<s:Elements>{}</s:Elements>", component("a", "", &binding)),
+            "",
+        );
+        let package = read_folder(&[("SystemStructure.ssd", &text), ("resources/x.ssv", &ssv)]);
+        match package {
+            Ok(package) => {
+                assert!(found, "{source}");
+                // What is written again has the file under its name.
+                let folder = tempfile::tempdir().unwrap();
+                let path = folder.path().join("again.ssp");
+                fs::write(&path, Package::bytes(package.structure(), &BTreeMap::new()).unwrap()).unwrap();
+                assert_eq!(
+                    Package::open(&path).unwrap().structure(),
+                    package.structure(),
+                    "{source}"
+                );
+            }
+            Err(error) => {
+                assert!(!found, "{source}: {error}");
+                assert!(
+                    error.to_string().contains("does not lead into the SSP"),
+                    "{source}: {error}"
+                );
+            }
+        }
     }
 }
 

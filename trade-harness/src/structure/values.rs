@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 
 use fmi2_import::{BaseType, Causality, ModelDescription, Value as Start, Variable, suggest};
-use ssp::{FlatParameter, Value};
+use ssp::{FlatParameter, SspError, Value};
 use study::did_you_mean;
+
+use super::wiring::named_unit;
 
 /// What a component is told.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -89,6 +91,7 @@ fn text(description: &ModelDescription, variable: &Variable, parameter: &FlatPar
         Value::Boolean(_) => variable.base_type() == BaseType::Boolean,
         Value::String(_) => variable.base_type() == BaseType::String,
         Value::Enumeration(_) => variable.base_type() == BaseType::Enumeration,
+        Value::Other(_) => false,
     };
     if !fits {
         return Err(format!(
@@ -98,33 +101,21 @@ fn text(description: &ModelDescription, variable: &Variable, parameter: &FlatPar
             variable.base_type()
         ));
     }
-    let Value::Real(value, Some(unit)) = &parameter.value else {
-        return Ok(parameter.value.to_string());
-    };
-    if variable.unit().is_none_or(|own| own == unit) {
-        return Ok(parameter.value.to_string());
-    }
-    let own = description
-        .units
-        .iter()
-        .find(|own| Some(own.name.as_str()) == variable.unit());
-    match (parameter.base, own.and_then(|own| own.base)) {
-        (Some(from), Some(to)) if from.exponents == to.exponents => {
-            let si = from.factor * value + from.offset;
-            Ok(format!("{:?}", (si - to.offset) / to.factor))
-        }
-        _ => Err(format!(
-            "'{}' is given in '{unit}' and is in '{}'; give it in that unit, or declare both units",
-            variable.name,
-            variable.unit().unwrap_or_default()
-        )),
-    }
+    let own = named_unit(description, &variable.name);
+    let value = parameter.in_unit(own.as_ref()).map_err(|error| match error {
+        SspError::Units { from, to } => format!(
+            "'{}' is given in '{from}' and is in '{to}'; give it in that unit, or declare both units",
+            variable.name
+        ),
+        other => other.to_string(),
+    })?;
+    Ok(value.to_string())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ssp::BaseUnit;
+    use ssp::{BaseUnit, Way};
 
     const MODEL: &str = r#"<fmiModelDescription fmiVersion="2.0" modelName="m" guid="{g}">
       <CoSimulation modelIdentifier="m"/>
@@ -163,6 +154,7 @@ mod tests {
                 name: (*name).to_owned(),
                 value: value.clone(),
                 base: matches!(value, Value::Real(_, Some(unit)) if unit == "km").then_some(km),
+                way: Way::default(),
                 by: "binding 'b'".to_owned(),
             })
             .collect();

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use fmi2_import::{BaseType, Causality, ModelDescription, Variable, suggest};
 use interface::ports::{self, Port, port};
-use ssp::{Connector, DataType, Flat, FlatConnection, Kind, Linear};
+use ssp::{BaseUnit, Connector, DataType, Flat, FlatConnection, Kind, Linear, NamedUnit, Way};
 use study::{Mapping, did_you_mean};
 
 /// An element, and what is wrong with it or with what leads there.
@@ -101,6 +101,9 @@ pub(super) fn parts<'a>(
             .filter(|output| output.at.0 == place && is_shared(&output.name))
         {
             rename(&mut part, &output.at.1, &output.name)?;
+            let unit = named_unit(description, &output.at.1);
+            let label = || format!("connector '{}' of the system", output.name);
+            converts(&output.way, unit.as_ref(), output.unit.as_ref(), label)?;
         }
         let begins = |begin: &str| {
             part.of(Causality::Output)
@@ -141,7 +144,11 @@ pub(super) fn parts<'a>(
     }
     parts.iter().try_for_each(distinct)?;
     for connection in &flat.connections {
-        converts(&parts, connection)?;
+        let ((from, output), (to, input)) = (&connection.from, &connection.to);
+        let (giver, taker) = (&parts[*from], &parts[*to]);
+        let units = [(giver, output), (taker, input)].map(|(part, name)| named_unit(part.description, name));
+        let [given, taken] = units.each_ref().map(Option::as_ref);
+        converts(&connection.way, given, taken, || label(giver, output, taker, input))?;
     }
     complete(flat, &parts)?;
     Ok(parts)
@@ -195,6 +202,10 @@ fn distinct(part: &Part<'_>) -> Result<(), Problem> {
 
 /// Checks a connector against the variable of its name.
 fn fits(part: &Part<'_>, connector: &Connector) -> Result<(), Problem> {
+    // What is not read is not connected, and is nothing to a study; it may be no variable at all.
+    if matches!(connector.data, Some(DataType::Other(_))) {
+        return Ok(());
+    }
     let wrong = |text: String| Err((format!("connector '{}.{}'", part.element, connector.name), text));
     let Some(variable) = part.description.get(&connector.name) else {
         let names = part.description.variables.iter().map(|v| v.name.as_str());
@@ -250,10 +261,7 @@ fn fits(part: &Part<'_>, connector: &Connector) -> Result<(), Problem> {
 fn connect(parts: &mut [Part<'_>], connection: &FlatConnection) -> Result<(), Problem> {
     let ((from, output), (to, input)) = (&connection.from, &connection.to);
     let (giver, taker) = (&parts[*from], &parts[*to]);
-    let label = format!(
-        "connection from {}.{output} to {}.{input}",
-        giver.element, taker.element
-    );
+    let label = label(giver, output, taker, input);
     let (own, theirs) = (giver.contract(output), taker.contract(input));
     let shared = if is_shared(theirs) && !is_shared(own) {
         theirs
@@ -284,40 +292,53 @@ fn connect(parts: &mut [Part<'_>], connection: &FlatConnection) -> Result<(), Pr
     rename(&mut parts[*to], input, &shared)
 }
 
-/// Checks that what a connection makes of values is what follows from the units of both FMUs, which is what a study does.
-fn converts(parts: &[Part<'_>], connection: &FlatConnection) -> Result<(), Problem> {
-    let ((from, output), (to, input)) = (&connection.from, &connection.to);
-    let (giver, taker) = (&parts[*from], &parts[*to]);
-    if connection.transformation == Linear::NONE {
-        return Ok(());
-    }
-    let base = |part: &Part<'_>, name: &str| {
-        let unit = part.description.get(name)?.unit()?;
-        let unit = part.description.units.iter().find(|own| own.name == unit);
-        unit.and_then(|unit| unit.base)
-    };
-    let told = match (base(giver, output), base(taker, input)) {
-        (Some(from), Some(to)) if from.exponents == to.exponents => Some(Linear {
-            factor: from.factor / to.factor,
-            offset: (from.offset - to.offset) / to.factor,
-        }),
-        _ => None,
-    };
-    let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 * a.abs().max(b.abs());
-    let given = connection.transformation;
-    if told.is_some_and(|told| close(told.factor, given.factor) && close(told.offset, given.offset)) {
-        return Ok(());
-    }
-    let label = format!(
+fn label(giver: &Part<'_>, output: &str, taker: &Part<'_>, input: &str) -> String {
+    format!(
         "connection from {}.{output} to {}.{input}",
         giver.element, taker.element
-    );
+    )
+}
+
+/// The unit of a variable.
+pub(super) fn named_unit(description: &ModelDescription, variable: &str) -> Option<NamedUnit> {
+    let name = description.get(variable)?.unit()?;
+    let declared = description.units.iter().find(|unit| unit.name == name);
+    Some(NamedUnit {
+        name: name.to_owned(),
+        base: declared.and_then(|unit| unit.base).map(|base| BaseUnit {
+            exponents: base.exponents,
+            factor: base.factor,
+            offset: base.offset,
+        }),
+    })
+}
+
+/// Checks that what a structure makes of values is what follows from the units of both ends, which is what a study does.
+fn converts(
+    way: &Way,
+    from: Option<&NamedUnit>,
+    to: Option<&NamedUnit>,
+    label: impl Fn() -> String,
+) -> Result<(), Problem> {
+    // Whether these units go together is for the study to say.
+    if way.is_bare() {
+        return Ok(());
+    }
+    let given = way.linear(from, to).map_err(|error| (label(), error.to_string()))?;
+    let told = match (from, to) {
+        (Some(from), Some(to)) => from.to(to).unwrap_or(Linear::NONE),
+        _ => Linear::NONE,
+    };
+    let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 * a.abs().max(b.abs());
+    if close(told.factor, given.factor) && close(told.offset, given.offset) {
+        return Ok(());
+    }
     let text = format!(
-        "factor {} and offset {} do not follow from the units of the two variables, and a study converts by units alone; declare them \
-         in the FMUs",
+        "factor {} and offset {}, conversions of units among them, do not follow from the units of the two variables, and a study \
+         converts by units alone; declare them in the FMUs, and set suppressUnitConversion where a factor stands for them",
         given.factor, given.offset
     );
-    Err((label, text))
+    Err((label(), text))
 }
 
 /// Checks that nothing is left open that a study connects, since its names are equal.

@@ -25,10 +25,17 @@ pub(super) enum End {
 /// Starts it and waits for its end.
 ///
 /// * `output`: file that takes what it prints.
+/// * `limit`: the longest that it may take.
 ///
 /// # Errors
 /// [`CheckError::Process`].
-pub(super) fn run(running: &Running, job: &Path, trial: &str, output: &Path) -> Result<End, CheckError> {
+pub(super) fn run(
+    running: &Running,
+    job: &Path,
+    trial: &str,
+    output: &Path,
+    limit: Duration,
+) -> Result<End, CheckError> {
     let failed = |source: io::Error| CheckError::Process { source };
     let mut command = (running.program)();
     command
@@ -38,7 +45,7 @@ pub(super) fn run(running: &Running, job: &Path, trial: &str, output: &Path) -> 
         .stdout(File::create(output).map_err(failed)?)
         .stderr(Stdio::null());
     let mut child = command.spawn().map_err(failed)?;
-    wait(&mut child, running.limit).map_err(failed)
+    wait(&mut child, limit).map_err(failed)
 }
 
 fn wait(child: &mut Child, limit: Duration) -> io::Result<End> {

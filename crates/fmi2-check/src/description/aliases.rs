@@ -54,10 +54,15 @@ fn of_set(view: &View<'_>, set: &[&Scalar<'_>], findings: &mut Findings) {
         }
     }
 
-    let mut united = set.iter().filter_map(|v| Some((v, view.attribute(v, "unit")?)));
-    if let Some((first, unit)) = united.next()
-        && let Some((other, _)) = united.find(|(_, other)| *other != unit)
+    let mut units = set.iter().map(|v| (v, view.attribute(v, "unit")));
+    if let Some((first, unit)) = units.next()
+        && let Some((other, its)) = units.find(|(_, its)| *its != unit)
     {
-        found(&rules::ALIAS_UNIT, first, other, "their units differ");
+        let what = if unit.is_some() && its.is_some() {
+            "their units differ"
+        } else {
+            "only one of them has a unit"
+        };
+        found(&rules::ALIAS_UNIT, first, other, what);
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::view::{Scalar, View};
 use crate::finding::Findings;
-use crate::role::{Causality, Initial};
+use crate::role::{Causality, Initial, Kind};
 use crate::rule::Rule;
 use crate::rules::structure as rules;
 use crate::xml::lexical::unsigned;
@@ -41,7 +41,8 @@ pub(super) fn check(view: &View<'_>, findings: &mut Findings) {
     let all_derivatives = are(&|v| v.get("derivative").is_some());
     if view.interface("ModelExchange").is_some() {
         let rule = &rules::DERIVATIVE_MISSING;
-        derivatives.missing(view, &all_derivatives, rule, "Derivatives", structure, findings);
+        let wanted = unlisted(view, &derivatives);
+        derivatives.missing(view, &wanted, rule, "Derivatives", structure, findings);
     }
     let what = "it has no attribute derivative";
     derivatives.extra(view, &all_derivatives, &rules::DERIVATIVE_EXTRA, what, findings);
@@ -93,6 +94,33 @@ pub(super) fn check(view: &View<'_>, findings: &mut Findings) {
             );
         }
     }
+}
+
+/// Derivatives that look like those of states, and of whose states no derivative is listed.
+///
+/// The attribute alone says less: inputs and outputs may be derivatives of each other, and what is an alias of a listed derivative,
+/// or of its state, brings no state of its own.
+fn unlisted(view: &View<'_>, derivatives: &List<'_>) -> BTreeSet<usize> {
+    let aliases = |wanted: BTreeSet<usize>| -> BTreeSet<u32> {
+        let there = view.variables.iter().filter(|v| v.kind == Some(Kind::Real));
+        there
+            .filter(|v| wanted.contains(&v.index))
+            .filter_map(|v| v.reference)
+            .collect()
+    };
+    let listed = aliases(derivatives.all().collect());
+    let states = aliases(derivatives.states(view).collect());
+    let inputs = view.variables.iter().filter(|v| v.causality == Causality::Input);
+    let inputs = aliases(inputs.map(|v| v.index).collect());
+    let is = |set: &BTreeSet<u32>, v: &Scalar<'_>| v.reference.is_some_and(|reference| set.contains(&reference));
+    let missing = view.variables.iter().filter(|v| {
+        let Some(of) = v.get("derivative").and_then(unsigned).and_then(|index| view.at(index)) else {
+            return false;
+        };
+        let outputs = [v, of].iter().all(|v| v.causality == Causality::Output);
+        !(outputs || is(&listed, v) || is(&states, of) || is(&inputs, v) || is(&inputs, of))
+    });
+    missing.map(|v| v.index).collect()
 }
 
 /// A list of unknowns with their indices, those that can be read.

@@ -7,7 +7,7 @@ rules! {
     REPEATED = "structure.repeated", Error, "2.2.8", "a list names a variable once", "keep one of them";
     OUTPUT_MISSING = "structure.output-missing", Error, "2.2.8", "Outputs lists every output", "add an Unknown for the output";
     OUTPUT_EXTRA = "structure.output-extra", Error, "2.2.8", "Outputs lists outputs only", "take it off the list, or make it an output";
-    DERIVATIVE_MISSING = "structure.derivative-missing", Error, "2.2.8", "Derivatives lists every derivative of a model-exchange FMU", "add an Unknown for the derivative";
+    DERIVATIVE_MISSING = "structure.derivative-missing", Warning, "2.2.8", "Derivatives lists the derivative of every state of a model-exchange FMU", "add an Unknown for it, unless what it belongs to is no state";
     DERIVATIVE_EXTRA = "structure.derivative-extra", Error, "2.2.8", "Derivatives lists variables with the attribute derivative", "take it off the list, or say whose derivative it is";
     INITIAL_MISSING = "structure.initial-missing", Error, "2.2.8", "InitialUnknowns lists outputs, states and derivatives that are not exact, and calculated parameters", "add an Unknown for it";
     INITIAL_EXTRA = "structure.initial-extra", Error, "2.2.8", "InitialUnknowns lists nothing else", "take it off the list";

@@ -24,6 +24,6 @@ rules! {
     ALIAS_SETTABLE = "variable.alias-settable", Error, "2.2.7", "of variables with one value reference, at most one can be set", "give them references of their own";
     ALIAS_START = "variable.alias-start", Error, "2.2.7", "of variables with one value reference, at most one has a start value, unless they are constants", "keep one start value";
     ALIAS_CONSTANT = "variable.alias-constant", Error, "2.2.7", "a constant shares its value reference with constants of the same value only", "give it a reference of its own";
-    ALIAS_UNIT = "variable.alias-unit", Error, "2.2.7", "variables with one value reference have one unit", "give them the same unit, or references of their own";
+    ALIAS_UNIT = "variable.alias-unit", Error, "2.2.7", "variables with one value reference have one unit, or all of them none", "give them the same unit, or references of their own";
     ARRAY = "variable.array", Note, "2.2.9", "an array has all its elements, with one number of indices", "add the missing elements, or rename the odd one";
 }

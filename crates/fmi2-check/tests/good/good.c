@@ -253,6 +253,11 @@ int fmi2DoStep(void *c, double at, double h, int keep) {
   while (forever) {
   }
 #endif
+#ifdef NAN_STEP_HANGS
+  volatile int endless = isnan(h);
+  while (endless) {
+  }
+#endif
   if (out_of_order(t, RUNNING))
     return refuse(t, "there is no step now");
 #ifndef ANY_STEP

@@ -24,6 +24,8 @@ pub(super) struct Trial {
     pub(super) crash: &'static Rule,
     /// Broken when a call does not come back.
     pub(super) hang: &'static Rule,
+    /// Whether it is a wrong call, whose answer is not waited for as long.
+    pub(super) mistake: bool,
     /// Whether it has a meaning for this FMU.
     pub(super) applies: fn(&Job) -> bool,
     pub(super) run: fn(&Bench<'_>) -> Result<(), Failed>,
@@ -35,6 +37,7 @@ const fn trial(name: &'static str, about: &'static str, run: fn(&Bench<'_>) -> R
         about,
         crash: &rules::CRASH,
         hang: &rules::HANG,
+        mistake: false,
         applies: |_| true,
         run,
     }
@@ -44,7 +47,17 @@ const fn mistake(name: &'static str, about: &'static str, run: fn(&Bench<'_>) ->
     Trial {
         crash: &rules::MISUSE_CRASH,
         hang: &rules::MISUSE_CRASH,
+        mistake: true,
         ..trial(name, about, run)
+    }
+}
+
+/// A wrong call that the standard wants refused.
+const fn to_refuse(rule: &'static Rule, mistake: Trial) -> Trial {
+    Trial {
+        crash: rule,
+        hang: rule,
+        ..mistake
     }
 }
 
@@ -107,7 +120,10 @@ pub(super) static OTHERS: &[Trial] = &[
         applies: |job| job.own_memory,
         ..trial("memory-null", "living without memory functions", callbacks::memory_null)
     },
-    mistake("wrong-guid", "instantiating with another guid", misuse::wrong_guid),
+    to_refuse(
+        &rules::GUID,
+        mistake("wrong-guid", "instantiating with another guid", misuse::wrong_guid),
+    ),
     mistake("step-at-once", "stepping before initialization", misuse::step_at_once),
     mistake(
         "step-too-early",
@@ -138,17 +154,26 @@ pub(super) static OTHERS: &[Trial] = &[
         misuse::step_elsewhere,
     ),
     mistake("step-nan", "stepping by what is no number", misuse::step_nan),
-    mistake(
-        "get-unknown",
-        "reading value references that do not exist",
-        misuse::get_unknown,
+    to_refuse(
+        &rules::REFERENCE,
+        mistake(
+            "get-unknown",
+            "reading value references that do not exist",
+            misuse::get_unknown,
+        ),
     ),
-    mistake(
-        "set-unknown",
-        "setting value references that do not exist",
-        misuse::set_unknown,
+    to_refuse(
+        &rules::REFERENCE,
+        mistake(
+            "set-unknown",
+            "setting value references that do not exist",
+            misuse::set_unknown,
+        ),
     ),
-    mistake("set-constant", "setting a constant", misuse::set_constant),
+    to_refuse(
+        &rules::CONSTANT_SET,
+        mistake("set-constant", "setting a constant", misuse::set_constant),
+    ),
     mistake(
         "set-fixed",
         "setting fixed parameters after initialization",
