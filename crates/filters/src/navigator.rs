@@ -473,7 +473,9 @@ impl Navigator {
             p_target,
             sigma,
         };
-        self.commands.forget_before(sample.time);
+        let reads_since = self.estimator.get().reads_since(self.start_s);
+        self.commands
+            .forget_before(reads_since.map_or(t_s, |since_s| since_s.min(t_s)));
         self.last = sample.without_readings(sample.time);
         self.expected = None;
         self.judge(due, seen);

@@ -69,6 +69,13 @@ pub(crate) trait Estimator {
     /// Moves the mean of relative position and velocity, internal units; the covariance stays that of its own gain.
     fn shift(&mut self, by: &Vector6<f64>);
 
+    /// Begin of the interval of which the accelerometer's next reading may be the mean, s; `None` where no reading looks back.
+    ///
+    /// * `start_s`: start of the run.
+    fn reads_since(&self, _start_s: f64) -> Option<f64> {
+        None
+    }
+
     /// Number of the target's nine states that have a covariance; none under a constant gain.
     fn dimension(&self) -> usize;
 
