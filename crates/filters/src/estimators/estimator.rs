@@ -45,7 +45,7 @@ pub(crate) trait Estimator {
     /// Whether [`Estimator::start`] has been called.
     fn started(&self) -> bool;
 
-    /// Time update over the gap, up to the epoch of `sample`.
+    /// Time update over the gap, up to the epoch of `sample`, at which its axes stand as they say.
     ///
     /// * `commands`: what the chaser was commanded to do, as far as that is known.
     /// * returns: transition of the target's nine states over the whole gap.

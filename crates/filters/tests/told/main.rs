@@ -5,6 +5,7 @@
 #![allow(clippy::print_stdout, reason = "what is found is a table")]
 
 mod flight;
+mod lvlh;
 
 use flight::{Order, Seen, Setup, fly, moved};
 
