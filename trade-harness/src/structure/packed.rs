@@ -130,7 +130,11 @@ fn values(world: &World, named: Named, filter: &str, description: &ModelDescript
         _ => chosen.push(("mission_file", Value::String(world.name.clone()))),
     }
     chosen.extend(item("filter", filter).map(|number| ("filter_index", Value::Integer(number))));
-    chosen.extend([("study_seed", Value::Integer(1)), ("run", Value::Integer(0))]);
+    chosen.extend([
+        ("study_seed", Value::Integer(1)),
+        ("run", Value::Integer(0)),
+        ("guidance.burn_enabled", Value::Boolean(true)),
+    ]);
     let parameters = chosen.into_iter().filter_map(|(name, value)| {
         let variable = description.get(name)?;
         Some(Parameter {
@@ -268,8 +272,9 @@ fn readme(choices: &[(&World, String)], nav: &ModelDescription) -> String {
         text.push_str(&format!("  {:>3}  {}\n", item.value, item.name));
     }
     text.push_str(
-        "\nrun and study_seed choose the random streams, and must be the same for both elements. Any other parameter of an FMU\n\
-         can be added to its file of values; documentation/index.html inside each FMU lists them.\n",
+        "\nrun and study_seed choose the random streams, and must be the same for both elements, as must guidance.burn_enabled:\n\
+         false leaves out the mission's own burns of the chaser. Any other parameter of an FMU can be added to its file of\n\
+         values; documentation/index.html inside each FMU lists them.\n",
     );
     text
 }
