@@ -130,11 +130,7 @@ fn values(world: &World, named: Named, filter: &str, description: &ModelDescript
         _ => chosen.push(("mission_file", Value::String(world.name.clone()))),
     }
     chosen.extend(item("filter", filter).map(|number| ("filter_index", Value::Integer(number))));
-    chosen.extend([
-        ("study_seed", Value::Integer(1)),
-        ("run", Value::Integer(0)),
-        ("guidance.burn_enabled", Value::Boolean(true)),
-    ]);
+    chosen.extend([("study_seed", Value::Integer(1)), ("run", Value::Integer(0))]);
     let parameters = chosen.into_iter().filter_map(|(name, value)| {
         let variable = description.get(name)?;
         Some(Parameter {
