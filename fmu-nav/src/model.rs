@@ -47,6 +47,7 @@ impl Model for NavModel {
             choice: Choice::default(),
             filter: 1,
             filter_index: 0,
+            burn_enabled: true,
             settings: Settings::default(),
             resolved: Vec::new(),
             inputs: Signals::default(),
@@ -66,7 +67,10 @@ impl Model for NavModel {
     }
 
     fn initialise(&mut self, experiment: &Experiment, _log: &mut Log<'_>) -> Result<(), ModelError> {
-        let navigation = self.choice.mission()?.navigation();
+        let mut navigation = self.choice.mission()?.navigation();
+        if !self.burn_enabled {
+            navigation.forget_burns_of_chaser();
+        }
         self.settings.filter = self.chosen()?;
         let mut navigator = Navigator::new(&navigation, &self.settings, experiment.start_time)?;
         let (sample, nav_init) = self.arrived();
@@ -104,11 +108,18 @@ impl Model for NavModel {
             return Ok(());
         };
         let (before, inputs) = (navigator.status(), &self.inputs);
+        let left_out = navigator.leaves_commands_out();
         navigator.step(t, h, &self.command);
         navigator.expect(&sample, &nav_init);
         let new = navigator.process(&sample, &nav_init)?;
         if !new {
             navigator.wait(h);
+        }
+        if navigator.leaves_commands_out() && !left_out {
+            log.event(format_args!(
+                "at t = {} s: a command is left out, since dcm_lvlh_n does not say how the LVLH axes stand: is it connected?",
+                inputs.sample_time
+            ));
         }
         let now = navigator.status();
         if now != before {

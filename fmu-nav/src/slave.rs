@@ -16,6 +16,8 @@ pub struct NavModel {
     pub filter: i32,
     /// The same for tools without enumerations; 0: `filter` counts.
     pub filter_index: i32,
+    /// Whether the mission's own burns of the chaser act.
+    pub burn_enabled: bool,
     /// The other parameters.
     pub settings: Settings,
     /// Values of the tunables that the mission may state, as they act; from initialization on.

@@ -124,6 +124,11 @@ fn study(t: &mut Builder) {
             |m| m.settings.run as i32,
             |m, v| m.settings.run = v.unsigned_abs().into(),
         );
+    t.boolean("guidance.burn_enabled")
+        .parameter()
+        .start(true)
+        .about("whether the mission's own burns of the chaser act, so that the filter reckons with those that it is told of; as in fmu-truth")
+        .rw(|m| m.burn_enabled, |m, v| m.burn_enabled = v);
 }
 
 /// From an FMI enumeration value, counted from 1 and range-checked before it gets here, to an index.

@@ -20,7 +20,7 @@ pub struct Command {
     pub impulse_count: i32,
 }
 
-/// The commands since the last sample, and those that the last reading of an accelerometer holds.
+/// The commands since the last sample, and before it those that the next reading of an accelerometer holds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Commands {
     /// When each acceleration begins, s, and what it is, m/s2; in order, each until the next one begins.
@@ -108,6 +108,11 @@ impl Commands {
             sum += a * (end - begin.max(from_s)).max(0.0);
         }
         sum / (to_s - from_s)
+    }
+
+    /// Change of velocity over an interval, by acceleration and impulses, its begin included and its end not, m/s.
+    pub(crate) fn gained(&self, from_s: f64, to_s: f64) -> Vector3<f64> {
+        self.mean(from_s, to_s) * (to_s - from_s) + self.impulse(from_s, to_s)
     }
 
     /// Times after `from_s`, within the `length_s` that follow, at which a command changes, s.

@@ -15,6 +15,7 @@ use crate::source::{Arrival, Source};
 use crate::state::{RowVector, State, Target, TargetMatrix};
 use crate::tunable::{Tunables, Value};
 use crate::units::Units;
+use astro::LvlhAxes;
 use interface::Bound::Positive;
 use interface::mission::Frame;
 use interface::{Navigation, Sensor, Status};
@@ -143,6 +144,8 @@ pub struct Navigator {
     expected: Option<State>,
     /// End of the present communication step, s.
     now_s: f64,
+    /// Whether a command was left out since nobody says how the axes of the estimate stand against those of the command.
+    left_out: bool,
 }
 
 /// Epochs of the accelerometer alone, as one: their length, transition and correction of the target's nine states.
@@ -251,6 +254,7 @@ impl Navigator {
             last: Sample::blank(0, start_time),
             expected: None,
             now_s: start_time,
+            left_out: false,
         })
     }
 
@@ -292,31 +296,32 @@ impl Navigator {
         }
     }
 
-    /// The estimate propagated to the end of the present communication step.
+    /// The estimate propagated to the end of the present communication step; the estimate itself, at its own time, where it cannot be
+    /// propagated.
     ///
     /// A prediction is made anew each time from the last sample, so it depends on nothing but that and the commands.
     pub fn predict(&self) -> Prediction {
-        let ahead = self.predicted().unwrap_or(Reported {
-            x: self.estimate.x,
-            p_target: self.estimate.p_target,
-            sigma: self.estimate.sigma,
-        });
         let length_s = self.now_s - self.estimate.time;
         let axes = self.last.target_axes.map(|axes| axes.after(length_s));
-        Prediction::new(self.now_s, self.frame, &ahead.x, &ahead.sigma, axes.as_ref())
+        if length_s > 0.0
+            && let Some(ahead) = self.predicted(length_s, axes)
+        {
+            return Prediction::new(self.now_s, self.frame, &ahead.x, &ahead.sigma, axes.as_ref());
+        }
+        let Estimate { time, x, sigma, .. } = &self.estimate;
+        Prediction::new(*time, self.frame, x, sigma, self.last.target_axes.as_ref())
     }
 
-    /// The same as its estimator has it; `None` where there is no step to go, or none that can be gone.
-    fn predicted(&self) -> Option<Reported> {
-        let length_s = self.now_s - self.estimate.time;
-        if length_s.is_nan() || length_s <= 0.0 {
-            return None;
-        }
+    /// The same as its estimator has it; `None` where the way cannot be gone.
+    ///
+    /// * `axes`: of the target's orbit at its end.
+    fn predicted(&self, length_s: f64, axes: Option<LvlhAxes>) -> Option<Reported> {
         self.estimator.with_copy(|estimator| {
             if !estimator.started() {
                 estimator.start(&self.expected?, self.start_s).ok()?;
             }
-            let ahead = self.last.without_readings(self.now_s);
+            let mut ahead = self.last.without_readings(self.now_s);
+            ahead.target_axes = axes;
             let gap = Gap {
                 from_s: self.estimate.time,
                 length_s,
@@ -473,7 +478,10 @@ impl Navigator {
             p_target,
             sigma,
         };
-        self.commands.forget_before(sample.time);
+        self.left_out |= self.frame == Frame::Lvlh && sample.target_axes.is_none() && !self.commands.is_silent();
+        let reads_since = self.estimator.get().reads_since(self.start_s);
+        self.commands
+            .forget_before(reads_since.map_or(t_s, |since_s| since_s.min(t_s)));
         self.last = sample.without_readings(sample.time);
         self.expected = None;
         self.judge(due, seen);
@@ -556,6 +564,11 @@ impl Navigator {
     /// How often the law has changed its process noise.
     pub fn updates(&self) -> i32 {
         self.law.updates()
+    }
+
+    /// Whether a command was left out since nobody says how the LVLH axes stand against axes N.
+    pub fn leaves_commands_out(&self) -> bool {
+        self.left_out
     }
 
     /// Samples of a sensor that were passed by as outliers.

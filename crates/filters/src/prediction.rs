@@ -9,7 +9,7 @@ use crate::state::State;
 /// The relative state ahead of the last sample, SI.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Prediction {
-    /// The time at which it holds, s.
+    /// The time at which it holds, s: the end of the communication step, or the epoch of the estimate where it could not be propagated.
     pub time: f64,
     /// Position of the target relative to the chaser, axes N, m; zero in the LVLH frame where nobody says how that stands.
     pub r_tc_n: Vector3<f64>,

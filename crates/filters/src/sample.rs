@@ -47,7 +47,7 @@ impl Reading {
 /// What an accelerometer reports, chaser body axes, m/s2.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum SpecificForce {
-    /// The specific force just after the epoch.
+    /// The specific force just after the epoch; what is commanded in it as it stood just before.
     Instant(Vector3<f64>),
     /// The mean since its last sample.
     Mean(Vector3<f64>),

@@ -9,11 +9,12 @@ use nalgebra::{Matrix3, Vector3};
 
 const BIAS: f64 = 2.943e-6;
 
-/// Seconds with pulses, strong and weak, alone and in a row, m/s2 along x.
+/// Seconds with pulses, strong, weak and weaker than the gate, alone and in a row, m/s2 along x.
 fn pulse(second: u32) -> f64 {
     match second {
         5 | 20..=22 | 40 => 5e-3,
         10 => 3e-4,
+        50..=52 => 8e-5,
         30 => -2e-3,
         31 => 4e-3,
         _ => 0.0,

@@ -66,12 +66,16 @@ const INTERFACE_TAIL: &str = "## Rules
 * A filter that is a bound reads `truth.dv_t_n` and `truth.event_time` and stops with an error where nobody says them; whatever stands
   there, any other filter's estimates are the same, bit for bit.
 * Inputs take effect in `fmi2DoStep` only. What pushes a vehicle acts from the communication point at which it was set for as long as
-  it stays: a pulse has its momentum at any phase of the truth's grid. All zero, they leave the samples as they are, bit for bit.
-* A filter that is told of the commands (`a_cmd_c_n`, `impulse_c_n`, `impulse_count` connected to it too) propagates with what the
-  accelerometer last read and what the command has changed by since; without an accelerometer, with the command. Truth and filter must
-  get the same command in the same step: truth, filter, guidance is the order of a Gauss-Seidel master.
-* `est.*` holds at `est.time`, the epoch of the last sample used; `pred.*` at the end of the communication step. Both begin as
-  `nav_init.x`.
+  it stays: a pulse has its momentum at any phase of the truth's grid. All zero, they leave the samples as they are, bit for bit. What
+  holds \"just after\" a time holds inputs as they stood over the step that ended there: the next ones are not known yet.
+* A filter that is told of the commands (`a_cmd_c_n`, `impulse_c_n`, `impulse_count` connected to it too) propagates with them at their
+  own times, and with what the accelerometer reads beyond them: from a reading is taken what was commanded while it was taken. In the
+  LVLH frame commands need `dcm_lvlh_n`; without it they are left out, and the log says so. Truth and filter must get the same command
+  in the same step: truth, filter, guidance is the order of a Gauss-Seidel master.
+* `guidance.burn_enabled` = false leaves out the mission's own burns of the chaser. It is a parameter of both FMUs and must be the same
+  in both: in fmu-truth no such burn acts, in finding the start neither; in fmu-nav no filter reckons with one that it is told of.
+* `est.*` holds at `est.time`, the epoch of the last sample used; `pred.*` at `pred.time`, the end of the communication step.
+  Both begin as `nav_init.x`. Where a prediction fails, `pred.*` is the estimate and `pred.time` is `est.time`.
 * `scenario_index` and `filter_index` stand for the enumerations of the same items where they are not 0; `mission_file` goes before both.
 * LiDAR axes: x_L = z_B, y_L = x_B, z_L = y_B. Camera angles are in the same axes; radio range rate is that of inertial space.
 * Parameters that start at -1 mean \"the mission's own\".

@@ -270,7 +270,7 @@ impl Models {
             let concerned = assignments
                 .iter()
                 .filter(|a| a.model != NAV || self.concerns(&a.variable, choice));
-            let mut filter = starts.assign(concerned)?.named(&choice.label);
+            let mut filter = starts.share(assignments)?.assign(concerned)?.named(&choice.label);
             filter.calculated.retain(|name| self.concerns(name, choice));
             filter.bound = model.filters.is_bound(&choice.name);
             filters.push(filter);
@@ -279,6 +279,7 @@ impl Models {
             filters.push(
                 StartValues::new(model)
                     .world(world)?
+                    .share(assignments)?
                     .assign(assignments)?
                     .named(&model.name),
             );

@@ -7,7 +7,7 @@ use fmi2_import::{Causality, suggest};
 
 use crate::arguments::{Assignment, FilterChoice, PAPER};
 use crate::error::StudyError;
-use crate::models::{Model, NAV};
+use crate::models::{Model, NAV, TRUTH};
 use crate::participant::Participant;
 use crate::tuned::TunedSet;
 use crate::world::World;
@@ -120,6 +120,23 @@ impl<'a> StartValues<'a> {
         Ok(())
     }
 
+    /// Sets what the truth is told and this filter must be told alike, where it can be. What is meant for the filter itself comes later
+    /// and goes before.
+    pub(crate) fn share<'t>(
+        mut self,
+        assignments: impl IntoIterator<Item = &'t Assignment>,
+    ) -> Result<Self, StudyError> {
+        let of_truth = assignments.into_iter().filter(|a| a.model == TRUTH);
+        for Assignment { variable, value, .. } in of_truth {
+            let own = self.model.description().get(variable);
+            let takes = own.is_some_and(|own| own.causality == Causality::Parameter);
+            if takes && SHARED.contains(&variable.as_str()) {
+                self.set(variable, value)?;
+            }
+        }
+        Ok(self)
+    }
+
     /// Sets what is meant for this FMU.
     pub(crate) fn assign<'t>(
         mut self,
@@ -164,6 +181,9 @@ impl<'a> StartValues<'a> {
         }
     }
 }
+
+/// Parameters of the truth that say what a filter is told of, too.
+const SHARED: [&str; 1] = ["guidance.burn_enabled"];
 
 /// Refuses what no option may set: no parameter, or one that another option governs.
 fn check_parameter(model: &Model, variable: &str) -> Result<(), StudyError> {

@@ -268,8 +268,9 @@ fn readme(choices: &[(&World, String)], nav: &ModelDescription) -> String {
         text.push_str(&format!("  {:>3}  {}\n", item.value, item.name));
     }
     text.push_str(
-        "\nrun and study_seed choose the random streams, and must be the same for both elements. Any other parameter of an FMU\n\
-         can be added to its file of values; documentation/index.html inside each FMU lists them.\n",
+        "\nrun and study_seed choose the random streams, and must be the same for both elements, as must guidance.burn_enabled:\n\
+         false leaves out the mission's own burns of the chaser. Any other parameter of an FMU can be added to its file of\n\
+         values; documentation/index.html inside each FMU lists them.\n",
     );
     text
 }

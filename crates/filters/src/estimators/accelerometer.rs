@@ -1,12 +1,14 @@
 //! What an accelerometer tells the propagation: a reading just after an epoch drives the step that follows, a mean drives the
-//! interval that it was taken over.
+//! interval that it was taken over. What the chaser was commanded to do meanwhile is no news: where a filter is told of it, that is taken
+//! out of a reading, and drives at its own time.
 
 use super::estimator::Gap;
 use crate::commands::Commands;
 use crate::dynamics::Thrust;
 use crate::sample::{Sample, SpecificForce};
 use crate::units::Units;
-use interface::mission::KnownAccelerometer;
+use interface::Navigation;
+use interface::mission::{AccelerometerOutput, KnownAccelerometer};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -24,7 +26,20 @@ pub(super) struct Accelerometer {
     held: Option<Thrust>,
     /// Commanded acceleration that the newest reading has in it, axes N.
     command_n: Vector3<f64>,
+    /// What a mean covers of the time since the last one where samples in between did not arrive.
+    cadence: Cadence,
     mean: Mean,
+}
+
+/// How often an accelerometer samples, as far as a mission says it.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Cadence {
+    /// Whether its first reading is told to be a mean.
+    begins_with_mean: bool,
+    /// Its period, s.
+    period_s: f64,
+    /// Whether every epoch at which a sensor samples is one of its own.
+    always: bool,
 }
 
 /// What readings that are means leave behind.
@@ -42,6 +57,12 @@ struct Mean {
     change_n: Vector3<f64>,
     /// Velocity that the filter has credited since then without a reading, axes N.
     credited_n: Vector3<f64>,
+    /// Ordinal of the sample that it came with; 0 before the first.
+    count: i32,
+    /// Ordinal of the newest sample, whatever it held.
+    newest: i32,
+    /// Whether a sample has not arrived since then, or one without its reading.
+    gone: bool,
 }
 
 /// The bias as it is estimated; internal units, body axes.
@@ -74,9 +95,19 @@ pub(super) struct Blur {
 }
 
 impl Accelerometer {
-    pub(super) fn new(known: &KnownAccelerometer, noise_enters: bool, units: Units) -> Self {
+    /// * `told`: the mission, for the periods of the other sensors.
+    pub(super) fn new(known: &KnownAccelerometer, told: &Navigation, noise_enters: bool, units: Units) -> Self {
+        let multiple = |period_s: f64| {
+            let periods = period_s / known.period_s;
+            periods > 0.5 && (periods - periods.round()).abs() < 1e-6
+        };
         Self {
             units,
+            cadence: Cadence {
+                begins_with_mean: known.output == AccelerometerOutput::Mean,
+                period_s: known.period_s,
+                always: told.sensors.iter().all(|sensor| multiple(sensor.period_s)),
+            },
             gate: known.gate_m_s2 / units.acceleration(),
             sigma: known.sigma_m_s2 / units.acceleration(),
             noise_enters,
@@ -96,12 +127,27 @@ impl Accelerometer {
         force.alpha_c_bc() / self.units.acceleration()
     }
 
-    /// The reading of a sample that observes the bias rather than drive the propagation.
+    /// The reading of a sample less what was commanded meanwhile, once [`Accelerometer::over`] knows it.
+    fn beyond_command(&self, force: &SpecificForce, sample: &Sample) -> Vector3<f64> {
+        let alpha = self.reading(force);
+        if self.command_n == Vector3::zeros() {
+            return alpha;
+        }
+        alpha - sample.dcm_bc_n * self.command_n
+    }
+
+    /// Whether a reading of the instant is that of a thrust: with what was commanded in it, since thrusters are not perfect, or beyond
+    /// that, since something else may push the other way.
+    fn instant_drives(&self, force: &SpecificForce, beyond: &Vector3<f64>) -> bool {
+        self.reading(force).norm() >= self.gate || beyond.norm() >= self.gate
+    }
+
+    /// The reading of a sample, less what was commanded, that observes the bias rather than drive the propagation.
     pub(super) fn of_bias(&self, sample: &Sample) -> Option<Vector3<f64>> {
         let force = sample.accelerometer.as_ref()?;
-        let alpha = self.reading(force);
+        let alpha = self.beyond_command(force, sample);
         let drives = match force {
-            SpecificForce::Instant(_) => alpha.norm() >= self.gate,
+            SpecificForce::Instant(_) => self.instant_drives(force, &alpha),
             SpecificForce::Mean(_) => self.mean.drives,
         };
         (!drives).then_some(alpha)
@@ -133,15 +179,29 @@ impl Accelerometer {
     /// Where samples were lost, T is longer than the period P that the reading is the mean of, which is taken to be the
     /// shortest T so far; nothing is known of the other T - P. The reading stands for all of T, and the velocity's covariance
     /// gains (T - P) |a - a'| / sqrt 3, with |a| where that is larger.
-    pub(super) fn over(&mut self, gap: &Gap, sample: &Sample, estimated: &Bias) -> Driven {
+    ///
+    /// * `commands`: what is known of the commands; all of this is then about what is felt beyond them.
+    pub(super) fn over(&mut self, gap: &Gap, sample: &Sample, estimated: &Bias, commands: Option<&Commands>) -> Driven {
         let dt = gap.length_s / self.units.time;
         let bias = &estimated.mean;
+        let no_reading = self.cadence.always && sample.accelerometer.is_none();
+        self.mean.gone |= no_reading || sample.count.wrapping_sub(self.mean.newest) != 1;
+        self.mean.newest = sample.count;
         let Some(force @ SpecificForce::Mean(_)) = &sample.accelerometer else {
+            if sample.accelerometer.is_some() {
+                let before = |told: &Commands| told.mean(sample.time, sample.time) / self.units.acceleration();
+                self.command_n = commands.map_or_else(Vector3::zeros, before);
+            }
             return self.held_over(dt, bias);
         };
-        let alpha = self.reading(force);
+        let since_s = self.mean.last_s.unwrap_or(gap.start_s);
+        self.command_n = commands.map_or_else(Vector3::zeros, |told| {
+            let from_s = sample.time - self.covered(since_s, sample);
+            told.gained(from_s, sample.time) / ((sample.time - from_s) * self.units.acceleration())
+        });
+        let alpha = self.beyond_command(force, sample);
         let drives = self.is_thrust(&alpha, estimated);
-        let interval = (sample.time - self.mean.last_s.unwrap_or(gap.start_s)) / self.units.time;
+        let interval = (sample.time - since_s) / self.units.time;
         let dcm_n_bc = sample.dcm_bc_n.transpose();
         let drive_n = if drives {
             dcm_n_bc * (alpha - bias)
@@ -173,6 +233,9 @@ impl Accelerometer {
             drive_n,
             change_n,
             credited_n: Vector3::zeros(),
+            count: sample.count,
+            newest: sample.count,
+            gone: false,
         };
         self.held = drives.then_some(Thrust {
             alpha_c_bc: alpha,
@@ -228,49 +291,34 @@ impl Accelerometer {
         driven
     }
 
-    /// Whether the command says what a gap's readings do not: not where the gap ends with the mean of what it was.
-    pub(super) fn leaves_to_command(sample: &Sample) -> bool {
-        !matches!(sample.accelerometer, Some(SpecificForce::Mean(_)))
-    }
-
-    /// Commanded acceleration that drives by way of the reading which is held, axes N.
-    pub(super) fn command_held(&self) -> Vector3<f64> {
-        self.held.map_or_else(Vector3::zeros, |_| self.command_n)
-    }
-
-    /// Whether the newest reading has a commanded acceleration in it.
-    pub(super) fn has_felt_command(&self) -> bool {
-        self.command_n != Vector3::zeros()
-    }
-
-    /// Takes note of the velocity that a command has credited to a gap at whose end there is no mean; it will be part of one.
-    pub(super) fn credit(&mut self, velocity_n: &Vector3<f64>) {
-        if self.mean.last_s.is_some() {
-            self.mean.credited_n += velocity_n;
+    /// Length of the interval of which a reading is the mean, s.
+    ///
+    /// All since the last one, unless samples did not arrive: then the ordinals say how many, where each has a reading; where not, the
+    /// mission says what the period is.
+    fn covered(&self, since_s: f64, sample: &Sample) -> f64 {
+        let (all, samples) = (sample.time - since_s, sample.count.saturating_sub(self.mean.count));
+        if !self.mean.gone {
+            all
+        } else if self.cadence.always && samples > 0 {
+            all / f64::from(samples)
+        } else {
+            self.cadence.period_s.min(all)
         }
     }
 
-    /// Takes note of what was commanded while the reading of a sample was taken.
-    pub(super) fn remember(&mut self, sample: &Sample, since_s: f64, commands: &Commands) {
-        let from_s = match sample.accelerometer {
-            None => return,
-            Some(SpecificForce::Instant(_)) => sample.time,
-            Some(SpecificForce::Mean(_)) => since_s,
-        };
-        self.command_n = commands.mean(from_s, sample.time) / self.units.acceleration();
-    }
-
-    /// Begin of the interval of which the next mean is one, s; `None` before the first.
-    pub(super) fn mean_since(&self) -> Option<f64> {
-        self.mean.last_s
+    /// Begin of the interval of which the next reading may be the mean, s; `None` for a reading of the instant.
+    ///
+    /// * `start_s`: start of the run.
+    pub(super) fn reads_since(&self, start_s: f64) -> Option<f64> {
+        self.mean.last_s.or(self.cadence.begins_with_mean.then_some(start_s))
     }
 
     /// Takes note of a reading of the instant.
     pub(super) fn take(&mut self, sample: &Sample) {
         if let Some(force @ SpecificForce::Instant(_)) = &sample.accelerometer {
-            let alpha = self.reading(force);
+            let alpha = self.beyond_command(force, sample);
             self.held_for = 0.0;
-            self.held = (alpha.norm() >= self.gate).then(|| Thrust {
+            self.held = self.instant_drives(force, &alpha).then(|| Thrust {
                 alpha_c_bc: alpha,
                 dcm_n_bc: sample.dcm_bc_n.transpose(),
             });

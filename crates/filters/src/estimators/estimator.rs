@@ -45,7 +45,7 @@ pub(crate) trait Estimator {
     /// Whether [`Estimator::start`] has been called.
     fn started(&self) -> bool;
 
-    /// Time update over the gap, up to the epoch of `sample`.
+    /// Time update over the gap, up to the epoch of `sample`, at which its axes stand as they say.
     ///
     /// * `commands`: what the chaser was commanded to do, as far as that is known.
     /// * returns: transition of the target's nine states over the whole gap.
@@ -68,6 +68,13 @@ pub(crate) trait Estimator {
 
     /// Moves the mean of relative position and velocity, internal units; the covariance stays that of its own gain.
     fn shift(&mut self, by: &Vector6<f64>);
+
+    /// Begin of the interval of which the accelerometer's next reading may be the mean, s; `None` where no reading looks back.
+    ///
+    /// * `start_s`: start of the run.
+    fn reads_since(&self, _start_s: f64) -> Option<f64> {
+        None
+    }
 
     /// Number of the target's nine states that have a covariance; none under a constant gain.
     fn dimension(&self) -> usize;

@@ -17,7 +17,7 @@ use crate::sample::Sample;
 use crate::state::{N_TARGET, Rows, State, Target, TargetMatrix, idx};
 use crate::update::ConstantGain;
 use crate::update::kalman::{self, Gaussian, Measurement};
-use astro::{ClohessyWiltshire, J2RelativeMotion};
+use astro::{ClohessyWiltshire, J2RelativeMotion, LvlhAxes};
 use interface::{Navigation, Sensor};
 use nalgebra::{Matrix3, SMatrix, Vector3, Vector6};
 use numerics::spd;
@@ -113,6 +113,12 @@ impl LvlhState {
     }
 }
 
+/// Changes the chaser's velocity at once, by something in axes N.
+fn kick(x: &mut Target, dv_c_n: &Vector3<f64>, axes: &LvlhAxes) {
+    let mut rho_dot = x.fixed_rows_mut::<3>(3);
+    rho_dot += axes.dcm_lvlh_n * dv_c_n;
+}
+
 impl Estimator for LvlhState {
     fn check(&self, sample: &Sample) -> Result<(), FilterError> {
         self.motion.get().check(&sample.target_orbit, sample.time)
@@ -152,19 +158,22 @@ impl Estimator for LvlhState {
         let axes = sample.target_axes.filter(|_| !commands.is_silent());
         let cuts = axes.iter().flat_map(|_| commands.edges(gap.from_s, gap.length_s));
         for dt in self.told.steps(t, gap.length_s, gap.parts(), cuts) {
-            let begin_s = gap.start_s + t;
-            if let Some(axes) = &axes {
-                let mut rho_dot = core.x.fixed_rows_mut::<3>(3);
-                rho_dot += axes.dcm_lvlh_n * commands.impulse(begin_s, begin_s + dt);
+            let (begin_s, end_s) = (gap.start_s + t, gap.start_s + t + dt);
+            // Half of what the acceleration gains at either end, in axes as they stand there.
+            let half_n = axes.map(|_| commands.at(begin_s + dt / 2.0) * (dt / 2.0));
+            if let (Some(axes), Some(half_n)) = (&axes, half_n) {
+                let gained_n = commands.impulse(begin_s, end_s) + half_n;
+                kick(&mut core.x, &gained_n, &axes.after(begin_s - sample.time));
             }
             let (x, mut f) = motion.step(&core.x, dt, &mut orbit, self.acceleration);
             core.x = x;
-            if !self.told.is_empty() || axes.is_some() {
+            if let (Some(axes), Some(half_n)) = (&axes, half_n) {
+                kick(&mut core.x, &half_n, &axes.after(end_s - sample.time));
+            }
+            if !self.told.is_empty() {
                 // Constant over the step; how the axes turn meanwhile, 1e-3 rad, is left out.
                 let (target, chaser) = self.told.at(t + dt / 2.0, None, &Matrix3::identity());
-                let commanded =
-                    axes.map_or_else(Vector3::zeros, |axes| axes.dcm_lvlh_n * commands.at(begin_s + dt / 2.0));
-                let a = chaser - target + commanded;
+                let a = chaser - target;
                 let mut rho = core.x.fixed_rows_mut::<3>(0);
                 rho += a * (dt * dt / 2.0);
                 let mut rho_dot = core.x.fixed_rows_mut::<3>(3);

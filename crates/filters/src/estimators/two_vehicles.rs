@@ -146,7 +146,7 @@ impl InertialState {
             accelerometer: told
                 .accelerometer
                 .as_ref()
-                .map(|known| Accelerometer::new(known, noise_enters, units)),
+                .map(|known| Accelerometer::new(known, told, noise_enters, units)),
             told: Manoeuvres::of(told)?,
             initial_p: InitialSigma {
                 position: told.p0.position / units.length,
@@ -410,16 +410,7 @@ impl Estimator for InertialState {
             return Ok(TargetMatrix::identity());
         };
         let mut total: Option<TargetMatrix> = None;
-        // A reading may hold a command that has ended: where samples come a step late, its end is the newest thing known.
-        let felt = self.accelerometer.as_ref().is_some_and(Accelerometer::has_felt_command);
-        let commands = Some(commands).filter(|told| felt || !told.is_silent());
-        let (held, mean_since) = self.accelerometer.as_ref().map_or_else(
-            || (Vector3::zeros(), None),
-            |accelerometer| (accelerometer.command_held(), accelerometer.mean_since()),
-        );
-        // Commands that no reading tells of.
-        let unfelt = commands.filter(|_| self.accelerometer.is_none() || Accelerometer::leaves_to_command(sample));
-        let mut credited_n = Vector3::zeros();
+        let commands = Some(commands).filter(|told| !told.is_silent());
         let bias = Bias {
             mean: part(&core.x, idx::B_C),
             variance: idx::B_C.map(|slot| core.p[(slot, slot)]).fold(0.0, f64::max),
@@ -427,7 +418,7 @@ impl Estimator for InertialState {
         let driven = self
             .accelerometer
             .as_mut()
-            .map(|accelerometer| accelerometer.over(gap, sample, &bias))
+            .map(|accelerometer| accelerometer.over(gap, sample, &bias, commands))
             .unwrap_or_default();
         let mut drive = Drive {
             thrust: driven.thrust,
@@ -435,17 +426,18 @@ impl Estimator for InertialState {
             ..Drive::default()
         };
         let mut t = gap.from_s - gap.start_s;
-        let cuts = unfelt.into_iter().flat_map(|told| told.edges(gap.from_s, gap.length_s));
+        let cuts = commands
+            .into_iter()
+            .flat_map(|told| told.edges(gap.from_s, gap.length_s));
         for length in self.told.steps(t, gap.length_s, gap.parts(), cuts) {
             let middle = t + length / 2.0;
             self.dynamics.gravity.turn_to(middle)?;
             let mut commanded_c_n = Vector3::zeros();
-            if let Some(told) = unfelt {
+            if let Some(told) = commands {
                 let begin_s = gap.start_s + t;
                 let impulse = told.impulse(begin_s, begin_s + length) / self.units.velocity();
                 kick(&mut core.x, &impulse);
-                commanded_c_n = told.at(begin_s + length / 2.0) / self.units.acceleration() - held;
-                credited_n += impulse + commanded_c_n * (length / self.units.time);
+                commanded_c_n = told.at(begin_s + length / 2.0) / self.units.acceleration();
             }
             drive.told_c_n = commanded_c_n;
             if !self.told.is_empty() {
@@ -464,10 +456,6 @@ impl Estimator for InertialState {
         }
         if let Some(unknown) = &driven.blur {
             blur(&mut core.p, unknown);
-        }
-        if let (Some(told), Some(accelerometer)) = (commands, &mut self.accelerometer) {
-            accelerometer.credit(&credited_n);
-            accelerometer.remember(sample, mean_since.unwrap_or(gap.start_s), told);
         }
         Ok(total.unwrap_or_else(TargetMatrix::identity))
     }
@@ -528,6 +516,10 @@ impl Estimator for InertialState {
             let mut mean = core.x.fixed_rows_mut::<6>(0);
             mean += by;
         }
+    }
+
+    fn reads_since(&self, start_s: f64) -> Option<f64> {
+        self.accelerometer.as_ref()?.reads_since(start_s)
     }
 
     fn dimension(&self) -> usize {

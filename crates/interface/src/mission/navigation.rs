@@ -236,6 +236,11 @@ pub struct Navigation {
 }
 
 impl Navigation {
+    /// Leaves out the burns of the chaser that a filter is told of, where they do not act.
+    pub fn forget_burns_of_chaser(&mut self) {
+        self.told.retain(|burn| burn.vehicle != Which::Chaser);
+    }
+
     /// A sensor of the target; `None` when it is not on board.
     pub fn sensor(&self, sensor: Sensor) -> Option<&KnownSensor> {
         self.sensors.iter().find(|known| known.sensor == sensor)
