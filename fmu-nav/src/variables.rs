@@ -10,7 +10,7 @@ use filters::tunable::{self, Tunable, Value};
 use filters::{Beliefs, Command, Navigator, Prediction};
 use fmi2_export::{Real, Row, Table, TableBuilder};
 use interface::mission::{Embedded, Frame};
-use interface::ports::{Kind, Part, Port, Role, Shape, of};
+use interface::ports::{Kind, PORTS, Part, Port, Role, Shape, of};
 use interface::signals::{Slot, slots};
 use interface::{Bound, Signals, Status};
 
@@ -155,6 +155,7 @@ fn real_parameter<'t>(
         Bound::Positive => row.positive(),
         Bound::AtLeast(least) => row.min(least),
         Bound::NonNegative => row.min(0.0),
+        Bound::PositiveBelow(limit) => row.positive().max(limit.next_down()),
         Bound::Fraction => row.min(0.0).max(1.0),
         Bound::Any => row,
     };
@@ -468,6 +469,14 @@ fn real_estimate(
     if matches!(name, "est.r_tc_n" | "est.v_tc_n" | "pred.r_tc_n" | "pred.v_tc_n") {
         row = row.initially_from("dcm_lvlh_n").initially_from("omega_lvlh");
     }
+    // How the axes turn, where nobody says it, and what the better model has beyond the simpler one.
+    if matches!(
+        name,
+        "est.r_tc_n" | "est.v_tc_n" | "pred.r_tc_n" | "pred.v_tc_n" | "est.d_lvlh"
+    ) {
+        let orbit = PORTS.iter().filter(|port| port.name.starts_with("target_orbit."));
+        row = orbit.fold(row, |row, port| row.initially_from(port.name));
+    }
     match port.shape {
         Shape::Scalar => row.output().get(move |m| get(m, 0)),
         Shape::Vector(count) => row.output().vector(count, get),
@@ -484,7 +493,6 @@ mod tests {
     use super::*;
     use fmi2_export::{Experiment, Log, Model};
     use interface::Sensor;
-    use interface::ports::PORTS;
     use interface::signals::Seen;
     use std::path::Path;
 

@@ -108,6 +108,7 @@ fn parameter_row(t: &mut Builder, row: usize, parameter: &'static Parameter) {
         Bound::AtLeast(least) => variable.min(least),
         Bound::NonNegative => variable.min(0.0),
         Bound::Positive => variable.positive(),
+        Bound::PositiveBelow(limit) => variable.positive().max(limit.next_down()),
         Bound::Fraction => variable.min(0.0).max(1.0),
     };
     let variable = if parameter.own {

@@ -4,6 +4,7 @@
 //! longer and none shorter.
 
 #![allow(missing_docs, clippy::expect_used, reason = "a bench that cannot run should stop")]
+#![allow(clippy::print_stdout, reason = "that is what it is for")]
 
 #[path = "../tests/common/mod.rs"]
 mod common;

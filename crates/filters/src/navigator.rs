@@ -278,7 +278,8 @@ impl Navigator {
             return;
         }
         let known_already = self.expected.is_some_and(|expected| expected == *nav_init);
-        if known_already && (self.last.target_axes, self.last.dcm_bc_n) == (sample.target_axes, sample.dcm_bc_n) {
+        let held = |sample: &Sample| (sample.target_axes, sample.dcm_bc_n, sample.target_orbit);
+        if known_already && held(&self.last) == held(sample) {
             return;
         }
         let known = nav_init.iter().any(|v| *v != 0.0) && nav_init.iter().all(|v| v.is_finite());

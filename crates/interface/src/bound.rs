@@ -11,6 +11,8 @@ pub enum Bound {
     NonNegative,
     /// More than zero.
     Positive,
+    /// More than zero and less than this.
+    PositiveBelow(f64),
     /// From 0 to 1.
     Fraction,
 }
@@ -24,6 +26,7 @@ impl Bound {
                 Self::AtLeast(least) => value >= least,
                 Self::NonNegative => value >= 0.0,
                 Self::Positive => value > 0.0,
+                Self::PositiveBelow(limit) => value > 0.0 && value < limit,
                 Self::Fraction => (0.0..=1.0).contains(&value),
             }
     }
@@ -35,6 +38,7 @@ impl Bound {
             Self::AtLeast(least) => format!("finite and at least {least} {unit}"),
             Self::NonNegative => format!("finite and at least 0 {unit}"),
             Self::Positive => format!("finite and above 0 {unit}"),
+            Self::PositiveBelow(limit) => format!("above 0 and below {limit} {unit}"),
             Self::Fraction => "between 0 and 1".into(),
         };
         words.trim_end().into()

@@ -9,10 +9,10 @@ pub fn symmetrised<const N: usize>(m: &SMatrix<f64, N, N>) -> SMatrix<f64, N, N>
 
 /// Copies what is below the diagonal above it.
 pub fn mirror<const N: usize>(m: &mut SMatrix<f64, N, N>) {
-    let columns = &mut m.data.0;
     for j in 1..N {
-        for i in 0..j {
-            columns[j][i] = columns[i][j];
+        let (before, from) = m.data.0.split_at_mut(j);
+        for (above, column) in from[0].iter_mut().zip(before) {
+            *above = column[j];
         }
     }
 }

@@ -427,7 +427,13 @@ fn of_sensor(sensor: Sensor) -> impl Iterator<Item = Parameter> {
     let word = sensor.word();
     let view = sensor.looks_ahead().then(|| {
         let about = format!("full width of the square field of view of the {word}");
-        row(VIEW, "field_of_view", "rad", Bound::Positive, about)
+        row(
+            VIEW,
+            "field_of_view",
+            "rad",
+            Bound::PositiveBelow(std::f64::consts::PI),
+            about,
+        )
     });
     let reach = row(
         "max_range_m",

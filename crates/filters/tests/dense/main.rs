@@ -1,6 +1,7 @@
 //! The filter's time and measurement updates against the same in whole matrices.
 
 #![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
+#![allow(clippy::print_stdout, reason = "says how far apart they are")]
 
 mod flight;
 mod reference;
