@@ -83,10 +83,16 @@ struct Unpacked {
     with_mission: bool,
 }
 
+/// Longest name of a file or filter: systems have no longer names of files than 255 bytes.
+const LONGEST: usize = 100;
+
 /// The name of an element as part of the name of a file or filter; elements may be called anything.
 fn plain(name: &str) -> String {
     let allowed = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    name.chars().map(|c| if allowed(c) { c } else { '_' }).collect()
+    name.chars()
+        .map(|c| if allowed(c) { c } else { '_' })
+        .take(LONGEST)
+        .collect()
 }
 
 /// Puts the FMUs into a folder, under names that tell them apart.

@@ -40,7 +40,7 @@ impl TunedFile {
     /// # Errors
     /// [`HarnessError::Read`], [`HarnessError::NotTuned`].
     pub fn read(path: &Path) -> Result<Self, HarnessError> {
-        let text = fs::read_to_string(path).map_err(|source| HarnessError::Read {
+        let text = interface::text::read(path).map_err(|source| HarnessError::Read {
             path: path.to_owned(),
             source,
         })?;

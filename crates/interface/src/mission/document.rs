@@ -31,12 +31,21 @@ fn of_no_mission(path: &Path, source: &std::io::Error) -> String {
     )
 }
 
+/// Longest name, bytes, that a nearer one is looked for; of longer ones the beginning is shown.
+const LONGEST_SLIP: usize = 100;
+
+/// Most findings that are told of.
+const TOLD: usize = 100;
+
 /// The end of a message about a name that does not exist: the nearest one, if one is near, and all there are.
 ///
 /// * `all`: how these are introduced.
 fn one_of(given: &str, known: &[&str], all: &str) -> String {
+    // Of a text that nobody has typed no slip can be told; it would take memory by its length.
+    let typed = given.len() <= LONGEST_SLIP;
     let nearest = known
         .iter()
+        .filter(|_| typed)
         .map(|name| (strsim::damerau_levenshtein(given, name), *name))
         // A name without its unit is a likely slip.
         .min_by_key(|(distance, name)| if name.starts_with(given) { 0 } else { *distance });
@@ -62,7 +71,7 @@ impl Document {
                 .parent()
                 .map(Path::to_owned)
                 .unwrap_or_default();
-            Ok::<_, std::io::Error>((std::fs::read_to_string(path)?, folder))
+            Ok::<_, std::io::Error>((crate::text::read(path)?, folder))
         };
         let (text, folder) = read(path).map_err(|source| MissionError::Read {
             path: path.display().to_string(),
@@ -205,6 +214,7 @@ impl Document {
         Err(MissionError::Invalid(
             findings
                 .into_iter()
+                .take(TOLD)
                 .map(|Finding { path, what }| problem(&path, what))
                 .collect(),
         ))
@@ -430,7 +440,11 @@ fn friendlier(message: &str, text: &str, span: Option<Range<usize>>) -> String {
         } else {
             "unknown value"
         };
-        return format!("{what} `{given}`{}", one_of(given, known, "allowed here"));
+        let shown = match given.floor_char_boundary(LONGEST_SLIP) {
+            whole if whole == given.len() => given.to_string(),
+            part => format!("{}...", &given[..part]),
+        };
+        return format!("{what} `{shown}`{}", one_of(given, known, "allowed here"));
     }
     let given = span.and_then(|span| text.get(span)).unwrap_or_default();
     if message.starts_with("invalid type") && !given.is_empty() && given.len() < 60 && !given.contains('\n') {
