@@ -95,8 +95,8 @@ fn every_file_and_every_truncation_of_it_is_read_or_refused() {
 
 /// Every length of a small file; of a larger one those near both ends, and some hundred between.
 fn truncations(length: usize) -> Vec<usize> {
-    const EVERY: usize = 400;
+    const EVERY: usize = 300;
     let step = (length / EVERY).max(1);
-    let near = |n: &usize| length <= EVERY || *n < 100 || *n + 100 >= length;
+    let near = |n: &usize| length <= EVERY || *n < 60 || *n + 60 >= length;
     (0..length).filter(|n| near(n) || n.is_multiple_of(step)).collect()
 }

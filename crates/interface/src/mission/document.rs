@@ -227,8 +227,10 @@ impl Document {
     }
 
     fn spanned(&self) -> Result<Spanned<&str>, MissionError> {
-        Spanned::parse(self.text.as_str())
-            .map_err(|e| MissionError::Invalid(vec![self.problem(e.span(), e.message().to_owned())]))
+        Spanned::parse(self.text.as_str()).map_err(|e| {
+            let (place, what) = too_deep(&self.text, e.message()).unwrap_or((e.span(), e.message().to_owned()));
+            MissionError::Invalid(vec![self.problem(place, what)])
+        })
     }
 
     fn problem(&self, span: Option<Range<usize>>, what: String) -> Problem {
@@ -260,6 +262,9 @@ impl Problem {
 
 /// What the parser says, and the place of the key that it names.
 fn explained(text: &str, error: &toml::de::Error) -> (Option<Range<usize>>, String) {
+    if let Some(told) = too_deep(text, error.message()) {
+        return told;
+    }
     let what = friendlier(error.message(), text, error.span());
     // A table that is read whole before its kind is known gives its own place for what is wrong inside.
     let named = error
@@ -278,6 +283,20 @@ fn explained(text: &str, error: &toml::de::Error) -> (Option<Range<usize>>, Stri
         inside.unwrap_or(span)
     });
     (place, what)
+}
+
+/// The parser says of a key of too many parts neither where nor how many there may be.
+fn too_deep(text: &str, message: &str) -> Option<(Option<Range<usize>>, String)> {
+    const PARTS: usize = 80;
+    (message == "recursion limit").then(|| {
+        let mut begin = 0;
+        let line = text.split_inclusive('\n').find_map(|line| {
+            let range = begin..begin + line.len();
+            begin = range.end;
+            (line.matches('.').count() >= PARTS).then_some(range)
+        });
+        (line, format!("a key has {PARTS} parts or more"))
+    })
 }
 
 /// Line and column, from 1, of a byte.
