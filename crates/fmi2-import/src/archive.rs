@@ -57,7 +57,11 @@ impl Archive {
             .has_overlapping_files()
             .map_err(|e| not_an_archive(&self.path, &e))?;
         let reason = if self.zip.len() > limits::ENTRIES {
-            format!("it has {} entries, at most {} are read", self.zip.len(), limits::ENTRIES)
+            format!(
+                "it has {} entries, at most {} are read",
+                self.zip.len(),
+                limits::ENTRIES
+            )
         } else if self.zip.has_duplicate_names() {
             "two entries have one name".to_owned()
         } else if shared {

@@ -1,7 +1,7 @@
 //! FMUs as archives: opened, checked, unpacked. Nothing is loaded.
 
-use crate::{Kind, told, zips};
 use crate::cage::cage;
+use crate::{Kind, told, zips};
 
 pub(crate) const KIND: Kind = Kind {
     name: "archive",
@@ -40,7 +40,10 @@ fn seeds() -> Vec<(String, Vec<u8>)> {
         ("binaries/linux64/tank.so", b"\x7fELF\x02\x01\x01"),
         ("resources/level.txt", b"0.5 0.5 0.5 0.5 0.5 0.5 0.5"),
         ("documentation/index.html", b"<html></html>"),
-        ("terminalsAndIcons/terminalsAndIcons.xml", b"<fmiTerminalsAndIcons fmiVersion=\"2.0\"/>"),
+        (
+            "terminalsAndIcons/terminalsAndIcons.xml",
+            b"<fmiTerminalsAndIcons fmiVersion=\"2.0\"/>",
+        ),
     ];
     let whole = [&[description], &more[..]].concat();
     let mut seeds = vec![
@@ -48,6 +51,10 @@ fn seeds() -> Vec<(String, Vec<u8>)> {
         ("whole".to_owned(), zips::deflated(&whole)),
         ("stored".to_owned(), zips::stored(&whole)),
     ];
-    seeds.extend(zips::hostile().into_iter().map(|(name, bytes)| (name.to_owned(), bytes)));
+    seeds.extend(
+        zips::hostile()
+            .into_iter()
+            .map(|(name, bytes)| (name.to_owned(), bytes)),
+    );
     seeds
 }

@@ -59,8 +59,16 @@ impl Cage {
         let mut found = BTreeSet::new();
         collect(self.folder.path(), &mut found);
         for path in found {
-            assert!(path.starts_with(folder) || path.starts_with(&self.given), "{} is outside", path.display());
-            assert!(path.symlink_metadata().unwrap().is_file(), "{} is no file", path.display());
+            assert!(
+                path.starts_with(folder) || path.starts_with(&self.given),
+                "{} is outside",
+                path.display()
+            );
+            assert!(
+                path.symlink_metadata().unwrap().is_file(),
+                "{} is no file",
+                path.display()
+            );
         }
     }
 }

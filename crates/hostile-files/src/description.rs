@@ -30,15 +30,24 @@ fn feed(bytes: &[u8]) {
     let cage = cage();
     let path = cage.put("given.fmu", &zips::stored(&[("modelDescription.xml", bytes)]));
     let found = fmi2_check::check(&path, None);
-    assert!(found.is_ok(), "what is wrong with a description is a finding: {found:?}");
+    assert!(
+        found.is_ok(),
+        "what is wrong with a description is a finding: {found:?}"
+    );
     cage.check(&[&path]);
 }
 
 /// Descriptions that come with the project are too long to begin with: a few variables of each kind are kept.
 fn seeds() -> Vec<(String, Vec<u8>)> {
     let all = [
-        ("fmu-truth", include_str!("../../../modelDescription/fmu-truth/modelDescription.xml")),
-        ("fmu-nav", include_str!("../../../modelDescription/fmu-nav/modelDescription.xml")),
+        (
+            "fmu-truth",
+            include_str!("../../../modelDescription/fmu-truth/modelDescription.xml"),
+        ),
+        (
+            "fmu-nav",
+            include_str!("../../../modelDescription/fmu-nav/modelDescription.xml"),
+        ),
         ("good", include_str!("../../fmi2-check/tests/good/modelDescription.xml")),
     ];
     let mut seeds = vec![("tank".to_owned(), DESCRIPTION.as_bytes().to_vec())];
@@ -47,11 +56,16 @@ fn seeds() -> Vec<(String, Vec<u8>)> {
     }
     let utf16 = |order: fn(u16) -> [u8; 2]| -> Vec<u8> {
         let text = DESCRIPTION.replace("UTF-8", "UTF-16");
-        std::iter::once(0xfeff).chain(text.encode_utf16()).flat_map(order).collect()
+        std::iter::once(0xfeff)
+            .chain(text.encode_utf16())
+            .flat_map(order)
+            .collect()
     };
     seeds.push(("utf-16-le".to_owned(), utf16(u16::to_le_bytes)));
     seeds.push(("utf-16-be".to_owned(), utf16(u16::to_be_bytes)));
-    let latin = DESCRIPTION.replace("UTF-8", "ISO-8859-1").replace("tank-1", "t\u{e4}nk");
+    let latin = DESCRIPTION
+        .replace("UTF-8", "ISO-8859-1")
+        .replace("tank-1", "t\u{e4}nk");
     seeds.push(("latin-1".to_owned(), latin.chars().map(|c| c as u8).collect()));
     seeds
 }

@@ -5,7 +5,12 @@
 //! fuzz targets in `fuzz/` call these functions, and so do the tests of this crate, with every file of `fuzz/corpus` and
 //! `fuzz/regressions`, every seed, and every truncation of each: [`KINDS`] lists them all. Nothing of it goes into an FMU or a command.
 
-#![allow(clippy::panic, clippy::unwrap_used, clippy::expect_used, reason = "a broken promise ends a test or a fuzz run by panic")]
+#![allow(
+    clippy::panic,
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a broken promise ends a test or a fuzz run by panic"
+)]
 
 mod archive;
 mod cage;

@@ -66,7 +66,11 @@ fn journal(cage: &Cage, runs: &[Outcome]) -> Vec<u8> {
 fn outcome(run: u32) -> Outcome {
     let records = (0..3).map(|epoch| {
         let mut record = Record::new(epoch);
-        record.set(Quantity::Position, Some(Vector3::new(1.0, -0.0, 2.0)), Some(Vector3::repeat(4.0)));
+        record.set(
+            Quantity::Position,
+            Some(Vector3::new(1.0, -0.0, 2.0)),
+            Some(Vector3::repeat(4.0)),
+        );
         record.set_nees(Some(0.3), None);
         record
     });
@@ -108,7 +112,10 @@ fn seeds() -> Vec<(String, Vec<u8>)> {
     vec![
         ("empty".to_owned(), empty),
         ("one".to_owned(), one),
-        ("three".to_owned(), journal(&cage, &[outcome(2), outcome(0), outcome(2)])),
+        (
+            "three".to_owned(),
+            journal(&cage, &[outcome(2), outcome(0), outcome(2)]),
+        ),
         ("frame".to_owned(), frame),
     ]
 }

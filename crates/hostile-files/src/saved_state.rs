@@ -7,7 +7,9 @@ use std::sync::OnceLock;
 use filters::laws::FILTERS;
 use filters::state::State;
 use filters::{Command, Navigator, Reading, Sample, Settings, SpecificForce};
-use fmi_model::{Experiment, Instance, InstanceError, Log, Model, ModelError, ModelInfo, Seal, Snapshot, Table, TableBuilder};
+use fmi_model::{
+    Experiment, Instance, InstanceError, Log, Model, ModelError, ModelInfo, Seal, Snapshot, Table, TableBuilder,
+};
 use interface::mission::{EMBEDDED, embedded};
 use interface::{Sensor, Signals};
 use nalgebra::Vector3;
@@ -212,7 +214,10 @@ fn both<M: Model>(name: &str, whose: u8, model: &M, whole: bool, seeds: &mut Vec
     let before = &blank[HEAD..blank.len() - CHECKSUM - own];
     let payload = [before, &postcard::to_stdvec(model).unwrap()].concat();
     if whole {
-        seeds.push((format!("{name}-whole"), [&[whose | 2], sealed(&payload).as_slice()].concat()));
+        seeds.push((
+            format!("{name}-whole"),
+            [&[whose | 2], sealed(&payload).as_slice()].concat(),
+        ));
     }
     seeds.push((name.to_owned(), [&[whose], payload.as_slice()].concat()));
 }

@@ -43,7 +43,10 @@ fn seeds() -> Vec<(String, Vec<u8>)> {
         [[require]]\nmetric = \"nees\"\nat_most = 2\n";
     let mut seeds = vec![
         ("grids".to_owned(), grids.as_bytes().to_vec()),
-        ("names".to_owned(), b"# theirs\n[a]\nx_hat = \"est.r_tc_n\"\n\"P[1,2]\" = \"cov.p[1,2]\"\n".to_vec()),
+        (
+            "names".to_owned(),
+            b"# theirs\n[a]\nx_hat = \"est.r_tc_n\"\n\"P[1,2]\" = \"cov.p[1,2]\"\n".to_vec(),
+        ),
     ];
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
     for entry in std::fs::read_dir(folder).unwrap() {

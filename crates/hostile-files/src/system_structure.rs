@@ -87,7 +87,13 @@ const STRUCTURED: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 
 fn seeds() -> Vec<(String, Vec<u8>)> {
     let archive = |entries: &[(&str, &[u8])]| zips::deflated(entries);
-    let with = |first: &[u8]| archive(&[(STRUCTURE, first), ("values.ssv", VALUES.as_bytes()), ("names.ssm", MAPPING.as_bytes())]);
+    let with = |first: &[u8]| {
+        archive(&[
+            (STRUCTURE, first),
+            ("values.ssv", VALUES.as_bytes()),
+            ("names.ssm", MAPPING.as_bytes()),
+        ])
+    };
     vec![
         ("structure".to_owned(), STRUCTURED.as_bytes().to_vec()),
         ("archive".to_owned(), with(STRUCTURED.as_bytes())),
@@ -96,10 +102,24 @@ fn seeds() -> Vec<(String, Vec<u8>)> {
         ("mapping".to_owned(), MAPPING.as_bytes().to_vec()),
         (
             "circle".to_owned(),
-            STRUCTURED.replace("startElement=\"a\" startConnector=\"x\"", "startElement=\"inner\" startConnector=\"in\"").into_bytes(),
+            STRUCTURED
+                .replace(
+                    "startElement=\"a\" startConnector=\"x\"",
+                    "startElement=\"inner\" startConnector=\"in\"",
+                )
+                .into_bytes(),
         ),
-        ("itself".to_owned(), STRUCTURED.replace("values.ssv", "again.ssv").into_bytes()),
-        ("climbs".to_owned(), STRUCTURED.replace("values.ssv", "../../values.ssv").into_bytes()),
-        ("climbs-encoded".to_owned(), STRUCTURED.replace("values.ssv", "%2e%2e/values.ssv").into_bytes()),
+        (
+            "itself".to_owned(),
+            STRUCTURED.replace("values.ssv", "again.ssv").into_bytes(),
+        ),
+        (
+            "climbs".to_owned(),
+            STRUCTURED.replace("values.ssv", "../../values.ssv").into_bytes(),
+        ),
+        (
+            "climbs-encoded".to_owned(),
+            STRUCTURED.replace("values.ssv", "%2e%2e/values.ssv").into_bytes(),
+        ),
     ]
 }

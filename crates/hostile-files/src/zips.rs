@@ -149,7 +149,10 @@ pub fn hostile() -> Vec<(&'static str, Vec<u8>)> {
                 Entry::of(b"resources/out/evil.txt", b"x"),
             ]),
         ),
-        ("twice", with(&[Entry::of(b"resources/a", b"x"), Entry::of(b"resources/a", b"y")])),
+        (
+            "twice",
+            with(&[Entry::of(b"resources/a", b"x"), Entry::of(b"resources/a", b"y")]),
+        ),
         ("described-twice", with(std::slice::from_ref(&description))),
         (
             "twice-by-slashes",

@@ -1,6 +1,10 @@
 //! Archives that nobody should have packed: each is refused with the reason, nothing is written outside and nothing left behind.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "what fails in a helper is a failed test")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "what fails in a helper is a failed test"
+)]
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock, PoisonError};
@@ -41,8 +45,16 @@ fn refusal(name: &str, bytes: &[u8]) -> String {
         Err(error) => error.to_string(),
     };
     assert!(told.contains(&format!("{name}.fmu")), "{name}: {told}");
-    assert_eq!(std::fs::read_dir(temporary).unwrap().count(), 0, "{name} left something behind");
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "{name} wrote beside itself");
+    assert_eq!(
+        std::fs::read_dir(temporary).unwrap().count(),
+        0,
+        "{name} left something behind"
+    );
+    assert_eq!(
+        std::fs::read_dir(folder.path()).unwrap().count(),
+        1,
+        "{name} wrote beside itself"
+    );
     told
 }
 
@@ -59,8 +71,16 @@ fn broken(name: &str, bytes: &[u8]) -> Vec<(String, String)> {
 fn every_hostile_archive_is_refused_by_its_fault() {
     // (archive, what the importer says of it, the rule that the checker finds broken)
     let expected = [
-        ("dots", "\"resources/../../evil.txt\" points outside the archive", "archive.path"),
-        ("dots-first", "\"../evil.txt\" points outside the archive", "archive.path"),
+        (
+            "dots",
+            "\"resources/../../evil.txt\" points outside the archive",
+            "archive.path",
+        ),
+        (
+            "dots-first",
+            "\"../evil.txt\" points outside the archive",
+            "archive.path",
+        ),
         ("dots-backslash", "points outside the archive", "archive.path"),
         ("absolute", "\"/evil.txt\" points outside the archive", "archive.path"),
         ("drive", "points outside the archive", "archive.path"),
@@ -71,12 +91,20 @@ fn every_hostile_archive_is_refused_by_its_fault() {
         ("through-a-link", "\"resources/out\" is a symbolic link", "archive.link"),
         ("twice", "two entries have one name", "archive.duplicate"),
         ("described-twice", "two entries have one name", "archive.duplicate"),
-        ("twice-by-slashes", "would be unpacked over another entry", "archive.backslash"),
+        (
+            "twice-by-slashes",
+            "would be unpacked over another entry",
+            "archive.backslash",
+        ),
         ("twice-by-dots", "would be unpacked over another entry", "archive.path"),
         ("twice-by-bytes", "would be unpacked over another entry", "archive.name"),
         ("shared-bytes", "two entries share their bytes", "archive.entry"),
         ("wrong-crc", "entry resources/a: Invalid checksum", "archive.entry"),
-        ("described-with-wrong-crc", "entry modelDescription.xml: Invalid checksum", "archive.entry"),
+        (
+            "described-with-wrong-crc",
+            "entry modelDescription.xml: Invalid checksum",
+            "archive.entry",
+        ),
         ("unknown-method", "entry resources/a", "archive.entry"),
         ("no-deflate-stream", "entry resources/a", "archive.entry"),
         ("file-as-folder", "cannot unpack", ""),
@@ -89,7 +117,10 @@ fn every_hostile_archive_is_refused_by_its_fault() {
         let told = refusal(name, bytes);
         assert!(told.contains(says), "{name}: {told}");
         let rules = broken(name, bytes);
-        assert!(rule.is_empty() || rules.iter().any(|(id, _)| id == rule), "{name}: {rules:?}");
+        assert!(
+            rule.is_empty() || rules.iter().any(|(id, _)| id == rule),
+            "{name}: {rules:?}"
+        );
     }
     println!("{} hostile archives refused", all.len());
 }
@@ -112,14 +143,20 @@ fn bombs_are_refused_before_they_fill_the_disk() {
         ..entry.clone()
     }));
     let many = by_hand(&many);
-    let one = deflated(&[("modelDescription.xml", description), ("resources/0", &vec![0; 257 << 20])]);
+    let one = deflated(&[
+        ("modelDescription.xml", description),
+        ("resources/0", &vec![0; 257 << 20]),
+    ]);
     for (name, bomb) in [("many", many), ("one", one)] {
         assert!(bomb.len() < 1 << 20);
         let told = refusal(name, &bomb);
         assert!(told.contains("exceeds the limit of 268435456 bytes"), "{told}");
         let found = broken(name, &bomb);
         let says = "the archive unpacks to more than 268435456 bytes";
-        assert!(found.iter().any(|(id, what)| id == "archive.entry" && what == says), "{found:?}");
+        assert!(
+            found.iter().any(|(id, what)| id == "archive.entry" && what == says),
+            "{found:?}"
+        );
     }
 }
 
@@ -136,10 +173,16 @@ fn entries_are_counted() {
 fn a_system_structure_with_two_entries_of_one_name_is_refused() {
     let folder = elsewhere();
     let path = folder.path().join("two.ssp");
-    let twice = [Entry::of(b"SystemStructure.ssd", b"<a/>"), Entry::of(b"SystemStructure.ssd", b"<b/>")];
+    let twice = [
+        Entry::of(b"SystemStructure.ssd", b"<a/>"),
+        Entry::of(b"SystemStructure.ssd", b"<b/>"),
+    ];
     std::fs::write(&path, by_hand(&twice)).unwrap();
     let told = ssp::Package::open(&path).unwrap_err().to_string();
-    assert!(told.contains("two.ssp") && told.contains("two entries have one name"), "{told}");
+    assert!(
+        told.contains("two.ssp") && told.contains("two entries have one name"),
+        "{told}"
+    );
     let wrong = [Entry {
         crc: 7,
         ..Entry::of(b"SystemStructure.ssd", b"<a/>")
@@ -147,5 +190,8 @@ fn a_system_structure_with_two_entries_of_one_name_is_refused() {
     std::fs::write(&path, by_hand(&wrong)).unwrap();
     let error = ssp::Package::open(&path).unwrap_err();
     let told = study::chain(&error);
-    assert!(told.contains("SystemStructure.ssd") && told.contains("Invalid checksum"), "{told}");
+    assert!(
+        told.contains("SystemStructure.ssd") && told.contains("Invalid checksum"),
+        "{told}"
+    );
 }

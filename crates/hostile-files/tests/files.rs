@@ -3,7 +3,11 @@
 //! Readers may refuse as they like; they must not panic, take more memory than a few times the file, write where they should not or
 //! leave anything behind.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "what fails in a helper is a failed test")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "what fails in a helper is a failed test"
+)]
 #![allow(unsafe_code, reason = "an allocator that counts")]
 
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -58,18 +62,33 @@ fn feed(kind: &Kind, name: &str, bytes: &[u8]) {
     (kind.feed)(bytes);
     let most = MOST.load(Ordering::Relaxed).saturating_sub(before);
     let allowed = BASE + TIMES * bytes.len();
-    assert!(most <= allowed, "{}/{name}: {most} bytes of memory for a file of {}", kind.name, bytes.len());
+    assert!(
+        most <= allowed,
+        "{}/{name}: {most} bytes of memory for a file of {}",
+        kind.name,
+        bytes.len()
+    );
 }
 
 /// Files of one kind: seeds, hand-written ones, and those that a reader has stumbled over.
 fn files(kind: &Kind) -> Vec<(String, Vec<u8>)> {
     let mut all = (kind.seeds)();
     for folder in ["corpus", "regressions"] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz").join(folder).join(kind.name);
-        let mut entries: Vec<_> = std::fs::read_dir(&path).into_iter().flatten().map(|e| e.unwrap().path()).collect();
+        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../../fuzz")
+            .join(folder)
+            .join(kind.name);
+        let mut entries: Vec<_> = std::fs::read_dir(&path)
+            .into_iter()
+            .flatten()
+            .map(|e| e.unwrap().path())
+            .collect();
         entries.sort();
         for file in entries {
-            all.push((format!("{folder}/{}", file.file_name().unwrap().display()), std::fs::read(&file).unwrap()));
+            all.push((
+                format!("{folder}/{}", file.file_name().unwrap().display()),
+                std::fs::read(&file).unwrap(),
+            ));
         }
     }
     all

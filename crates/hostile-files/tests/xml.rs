@@ -1,13 +1,18 @@
 //! XML that grows, nests, lies about its encoding or makes readers search: refused or read, in time and memory by its length.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "what fails in a helper is a failed test")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "what fails in a helper is a failed test"
+)]
 
 use std::path::Path;
 
 use fmi2_import::ModelDescription;
 use hostile_files::zips::deflated;
 
-const HEAD: &str = "<fmiModelDescription fmiVersion=\"2.0\" modelName=\"m\" guid=\"g\"><CoSimulation modelIdentifier=\"m\"/>";
+const HEAD: &str =
+    "<fmiModelDescription fmiVersion=\"2.0\" modelName=\"m\" guid=\"g\"><CoSimulation modelIdentifier=\"m\"/>";
 const TAIL: &str = "</fmiModelDescription>";
 
 fn import(bytes: &[u8]) -> Result<ModelDescription, String> {
@@ -36,11 +41,17 @@ fn structure(bytes: &[u8]) -> String {
 /// Whether all three readers refuse a document, each in its own words.
 fn refused_by_all(what: &str, document: &[u8], says: [&str; 3]) {
     let imported = import(document).map(|d| d.model_name).unwrap_err();
-    assert!(imported.starts_with("given.fmu: modelDescription.xml, line") && imported.contains(says[0]), "{what}: {imported}");
+    assert!(
+        imported.starts_with("given.fmu: modelDescription.xml, line") && imported.contains(says[0]),
+        "{what}: {imported}"
+    );
     let found = check(document);
     assert!(found.iter().any(|f| f.contains(says[1])), "{what}: {found:?}");
     let told = structure(document);
-    assert!(told.contains("SystemStructure.ssd:") && told.contains(says[2]), "{what}: {told}");
+    assert!(
+        told.contains("SystemStructure.ssd:") && told.contains(says[2]),
+        "{what}: {told}"
+    );
 }
 
 #[test]
@@ -56,7 +67,9 @@ fn entities_are_not_expanded_nor_fetched() {
         refused_by_all(what, document.as_bytes(), ["l9", "l9", "l9"]);
         // Said and not used, or used where text means nothing, it does nothing.
         for text in ["", "&l9;"] {
-            let document = format!("{prologue}{HEAD}<ModelVariables/><VendorAnnotations><Tool name=\"t\">{text}</Tool></VendorAnnotations>{TAIL}");
+            let document = format!(
+                "{prologue}{HEAD}<ModelVariables/><VendorAnnotations><Tool name=\"t\">{text}</Tool></VendorAnnotations>{TAIL}"
+            );
             assert_eq!(import(document.as_bytes()).unwrap().vendor_annotations[0].xml, text);
         }
     }
@@ -66,10 +79,23 @@ fn entities_are_not_expanded_nor_fetched() {
 fn nesting_has_an_end() {
     for (what, document) in [
         ("open", format!("{HEAD}\n{}", "<a>".repeat(1_000_000))),
-        ("closed", format!("{HEAD}\n{}{}{TAIL}", "<a>".repeat(300), "</a>".repeat(300))),
-        ("annotated", format!("{HEAD}\n<VendorAnnotations><Tool name=\"t\">{}", "<a b=\"c\">".repeat(500_000))),
+        (
+            "closed",
+            format!("{HEAD}\n{}{}{TAIL}", "<a>".repeat(300), "</a>".repeat(300)),
+        ),
+        (
+            "annotated",
+            format!(
+                "{HEAD}\n<VendorAnnotations><Tool name=\"t\">{}",
+                "<a b=\"c\">".repeat(500_000)
+            ),
+        ),
     ] {
-        refused_by_all(what, document.as_bytes(), ["more than 200 deep", "more than 200 deep", "more than 200"]);
+        refused_by_all(
+            what,
+            document.as_bytes(),
+            ["more than 200 deep", "more than 200 deep", "more than 200"],
+        );
     }
 }
 
@@ -84,7 +110,12 @@ fn attributes_may_be_many_and_long() {
     let told = description.variable(&"y".repeat(8 << 20)).unwrap_err().to_string();
     assert!(!told.contains("did you mean"));
     let found = check(variable.as_bytes());
-    assert!(found.iter().any(|f| f.contains("name of ScalarVariable is longer than 4096 bytes")), "{found:?}");
+    assert!(
+        found
+            .iter()
+            .any(|f| f.contains("name of ScalarVariable is longer than 4096 bytes")),
+        "{found:?}"
+    );
     let told = structure(format!("<a name=\"{long}\"/>").as_bytes());
     assert!(told.contains("longer than 1000 bytes"), "{told}");
     // Where it may be long it is read.
@@ -108,7 +139,9 @@ fn time_grows_with_the_document_and_no_faster() {
     let unknown = list(&|n| format!("<Unknown index=\"{}\"/>", n + 1));
     let items = list(&|n| format!("<Item name=\"i{n}\" value=\"{n}\"/>"));
     let variables = list(&|n| {
-        format!("<ScalarVariable name=\"v{n}\" valueReference=\"7\" variability=\"discrete\"><Enumeration declaredType=\"E\" start=\"-1\"/></ScalarVariable>")
+        format!(
+            "<ScalarVariable name=\"v{n}\" valueReference=\"7\" variability=\"discrete\"><Enumeration declaredType=\"E\" start=\"-1\"/></ScalarVariable>"
+        )
     });
     let document = format!(
         "{HEAD}<TypeDefinitions><SimpleType name=\"E\"><Enumeration>{items}</Enumeration></SimpleType></TypeDefinitions>\
@@ -116,7 +149,11 @@ fn time_grows_with_the_document_and_no_faster() {
     );
     assert_eq!(import(document.as_bytes()).unwrap().variables.len(), count);
     assert!(check(document.as_bytes()).len() > count);
-    let states = list(&|n| format!("<ScalarVariable name=\"v{n}\" valueReference=\"{n}\"><Real reinit=\"true\" derivative=\"9\"/></ScalarVariable>"));
+    let states = list(&|n| {
+        format!(
+            "<ScalarVariable name=\"v{n}\" valueReference=\"{n}\"><Real reinit=\"true\" derivative=\"9\"/></ScalarVariable>"
+        )
+    });
     let document = format!("{HEAD}<ModelVariables>{states}</ModelVariables>{TAIL}");
     assert!(check(document.as_bytes()).len() > count);
 }
@@ -132,7 +169,10 @@ fn a_system_structure_has_as_many_parts_as_can_be_held_against_each_other() {
     };
     assert_eq!(structure(of(50_000).as_bytes()), "50000 components");
     let told = structure(of(200_000).as_bytes());
-    assert!(told.contains("SystemStructure.ssd:1: the structure has more than 200000 elements"), "{told}");
+    assert!(
+        told.contains("SystemStructure.ssd:1: the structure has more than 200000 elements"),
+        "{told}"
+    );
     // Names of systems go into those of what is inside.
     let name = "n".repeat(900);
     let (open, close): (String, String) = (
@@ -150,7 +190,9 @@ fn a_system_structure_has_as_many_parts_as_can_be_held_against_each_other() {
 #[test]
 fn encodings_are_what_the_bytes_are_or_the_file_is_refused() {
     let declared = |encoding: &str, name: &[u8]| -> Vec<u8> {
-        let head = format!("<?xml version=\"1.0\" encoding=\"{encoding}\"?>\n<fmiModelDescription fmiVersion=\"2.0\" guid=\"g\" modelName=\"");
+        let head = format!(
+            "<?xml version=\"1.0\" encoding=\"{encoding}\"?>\n<fmiModelDescription fmiVersion=\"2.0\" guid=\"g\" modelName=\""
+        );
         let tail = "\"><CoSimulation modelIdentifier=\"m\"/><ModelVariables/></fmiModelDescription>";
         [head.as_bytes(), name, tail.as_bytes()].concat()
     };
@@ -165,7 +207,10 @@ fn encodings_are_what_the_bytes_are_or_the_file_is_refused() {
         (declared("windows-1252", b"\x80"), "\u{20ac}"),
         (utf16(&declared("UTF-16", "\u{e4}".as_bytes())), "\u{e4}"),
         (declared("UTF-16", b"m"), "m"),
-        ([b"\xef\xbb\xbf", &declared("ISO-8859-1", "\u{e4}".as_bytes())[..]].concat(), "\u{e4}"),
+        (
+            [b"\xef\xbb\xbf", &declared("ISO-8859-1", "\u{e4}".as_bytes())[..]].concat(),
+            "\u{e4}",
+        ),
     ] {
         assert_eq!(import(&document).unwrap().model_name, name);
         check(&document);
@@ -173,19 +218,59 @@ fn encodings_are_what_the_bytes_are_or_the_file_is_refused() {
     }
     let surrogate = |document: Vec<u8>| [&document[..], &[0x00, 0xd8]].concat();
     for (what, document, says) in [
-        ("Latin-1 as UTF-8", declared("UTF-8", b"\xe4"), "line 2, column 59: not UTF-8"),
-        ("Latin-1 as nothing", declared("UTF-8", b"\xe4")[38..].to_vec(), "not UTF-8"),
+        (
+            "Latin-1 as UTF-8",
+            declared("UTF-8", b"\xe4"),
+            "line 2, column 59: not UTF-8",
+        ),
+        (
+            "Latin-1 as nothing",
+            declared("UTF-8", b"\xe4")[38..].to_vec(),
+            "not UTF-8",
+        ),
         ("overlong", declared("UTF-8", b"\xc0\xaf"), "not UTF-8"),
-        ("no encoding", declared("klingon", b"m"), "\"klingon\" is not known: save the file as UTF-8"),
+        (
+            "no encoding",
+            declared("klingon", b"m"),
+            "\"klingon\" is not known: save the file as UTF-8",
+        ),
         ("UTF-7", declared("UTF-7", b"m"), "\"UTF-7\" is not known"),
         ("EBCDIC", declared("ibm037", b"m"), "\"ibm037\" is not known"),
-        ("a stateful one", declared("iso-2022-kr", b"m"), "which the file declares"),
-        ("a lone surrogate", surrogate(utf16(&declared("UTF-16", b"m"))), "which the file declares"),
-        ("half a character", [&utf16(&declared("UTF-16", b"m"))[..], b"x"].concat(), "which the file declares"),
-        ("UTF-32", declared("UTF-32", b"m").iter().flat_map(|b| [*b, 0, 0, 0]).collect(), "UTF-32: save it as UTF-8"),
-        ("UTF-32 with its mark", vec![0xff, 0xfe, 0, 0, b'<', 0, 0, 0], "UTF-32: save it as UTF-8"),
-        ("UTF-32, the other way", vec![0, 0, 0xfe, 0xff, 0, 0, 0, b'<'], "UTF-32: save it as UTF-8"),
-        ("Shift_JIS cut off", declared("Shift_JIS", b"\x81\""), "modelDescription.xml, line"),
+        (
+            "a stateful one",
+            declared("iso-2022-kr", b"m"),
+            "which the file declares",
+        ),
+        (
+            "a lone surrogate",
+            surrogate(utf16(&declared("UTF-16", b"m"))),
+            "which the file declares",
+        ),
+        (
+            "half a character",
+            [&utf16(&declared("UTF-16", b"m"))[..], b"x"].concat(),
+            "which the file declares",
+        ),
+        (
+            "UTF-32",
+            declared("UTF-32", b"m").iter().flat_map(|b| [*b, 0, 0, 0]).collect(),
+            "UTF-32: save it as UTF-8",
+        ),
+        (
+            "UTF-32 with its mark",
+            vec![0xff, 0xfe, 0, 0, b'<', 0, 0, 0],
+            "UTF-32: save it as UTF-8",
+        ),
+        (
+            "UTF-32, the other way",
+            vec![0, 0, 0xfe, 0xff, 0, 0, 0, b'<'],
+            "UTF-32: save it as UTF-8",
+        ),
+        (
+            "Shift_JIS cut off",
+            declared("Shift_JIS", b"\x81\""),
+            "modelDescription.xml, line",
+        ),
     ] {
         let told = import(&document).map(|d| d.model_name).expect_err(what);
         assert!(told.contains("given.fmu") && told.contains(says), "{what}: {told}");

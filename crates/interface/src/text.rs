@@ -16,7 +16,9 @@ pub fn read(path: &Path) -> io::Result<String> {
     File::open(path)?.take(LIMIT + 1).read_to_end(&mut bytes)?;
     let wrong = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
     if bytes.len() as u64 > LIMIT {
-        return Err(wrong(format!("it has more than {LIMIT} bytes, and is no text that is meant here")));
+        return Err(wrong(format!(
+            "it has more than {LIMIT} bytes, and is no text that is meant here"
+        )));
     }
     if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
         return Err(wrong("it is in UTF-16; save it as UTF-8".to_owned()));

@@ -145,9 +145,16 @@ impl Outcome {
             return Err(format!("run {run} says that it is run {other}"));
         }
         if self.parts.len() != filters {
-            return Err(format!("run {run} has {} filters, the study has {filters}", self.parts.len()));
+            return Err(format!(
+                "run {run} has {} filters, the study has {filters}",
+                self.parts.len()
+            ));
         }
-        let records = self.parts.iter().flat_map(|part| &part.records).map(|record| record.epoch);
+        let records = self
+            .parts
+            .iter()
+            .flat_map(|part| &part.records)
+            .map(|record| record.epoch);
         let points = self.path.iter().map(|point| point.epoch);
         match records.chain(points).find(|epoch| *epoch as usize >= epochs) {
             Some(epoch) => Err(format!("run {run} has an epoch {epoch}, the study has {epochs}")),

@@ -1,7 +1,6 @@
 //! At what laws are tried, and what they are held against.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};

@@ -103,7 +103,7 @@ mod tests {
                 feasible: true,
             }],
         };
-        fs::write(&path, file.render().unwrap()).unwrap();
+        std::fs::write(&path, file.render().unwrap()).unwrap();
         assert_eq!(TunedFile::read(&path).unwrap(), file);
         assert_eq!(file.sets[0].name, "p-tuned");
         assert_eq!(TunedSet::name_for(PAPER), "tuned");
@@ -114,7 +114,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("tuned.json");
         assert!(matches!(TunedFile::read(&path), Err(HarnessError::Read { .. })));
-        fs::write(&path, "{\"sets\": 3}").unwrap();
+        std::fs::write(&path, "{\"sets\": 3}").unwrap();
         let error = TunedFile::read(&path).unwrap_err();
         assert!(matches!(error, HarnessError::NotTuned { .. }), "{error}");
         assert!(error.to_string().contains("tuned.json"), "{error}");

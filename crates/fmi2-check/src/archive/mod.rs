@@ -184,7 +184,10 @@ impl Archive {
         let bytes = self.read_limited(DESCRIPTION, limits::DESCRIPTION);
         let declared = self.zip.by_name(DESCRIPTION).map(|entry| entry.size());
         if bytes.is_none() && declared.is_ok_and(|size| size > limits::DESCRIPTION) {
-            let what = format!("it is larger than {} bytes, and nothing in it was checked", limits::DESCRIPTION);
+            let what = format!(
+                "it is larger than {} bytes, and nothing in it was checked",
+                limits::DESCRIPTION
+            );
             self.broken(findings, DESCRIPTION, what);
         }
         bytes

@@ -95,9 +95,15 @@ impl<'a> View<'a> {
         Self {
             root,
             units: units.collect(),
-            items: types.iter().map(|(name, node)| (*name, values(node).collect())).collect(),
+            items: types
+                .iter()
+                .map(|(name, node)| (*name, values(node).collect()))
+                .collect(),
             types,
-            states: variables.iter().filter_map(|v| v.get("derivative").and_then(unsigned)).collect(),
+            states: variables
+                .iter()
+                .filter_map(|v| v.get("derivative").and_then(unsigned))
+                .collect(),
             variables,
         }
     }

@@ -25,7 +25,11 @@ const SHOWN: [usize; 2] = [400, 100];
 
 /// The beginning of a text.
 fn short(text: &str, length: usize) -> &str {
-    &text[..text.floor_char_boundary(length)]
+    let mut end = length.min(text.len());
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    &text[..end]
 }
 
 /// An element.
@@ -75,7 +79,11 @@ impl Node {
         for place in 0..self.children.len() {
             let name = self.children[place].name.clone();
             let own = self.children[place].get("name").unwrap_or_default();
-            let own = if self.name == "ModelVariables" { own } else { short(own, SHOWN[1]) };
+            let own = if self.name == "ModelVariables" {
+                own
+            } else {
+                short(own, SHOWN[1])
+            };
             let before = seen.entry(name.clone()).or_default();
             *before += 1;
             let (before, many) = (*before, counts.get(&name).is_some_and(|count| *count > 1));
@@ -227,7 +235,11 @@ fn node(tag: &BytesStart<'_>, line: usize, annotated: bool) -> Result<Node, Fail
             .map_err(|error| (line, format!("in {}: {error}", node.name)))?;
         let key: &str = attribute.key.as_ref();
         if value.len() > ATTRIBUTE && !annotated && !LONG.contains(&key) {
-            let what = format!("{} of {} is longer than {ATTRIBUTE} bytes", short(key, SHOWN[1]), node.name);
+            let what = format!(
+                "{} of {} is longer than {ATTRIBUTE} bytes",
+                short(key, SHOWN[1]),
+                node.name
+            );
             return Err((line, what));
         }
         node.attributes.push((key.to_owned(), value.into_owned()));

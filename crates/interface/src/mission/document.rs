@@ -459,10 +459,10 @@ fn friendlier(message: &str, text: &str, span: Option<Range<usize>>) -> String {
         } else {
             "unknown value"
         };
-        let shown = match given.floor_char_boundary(LONGEST_SLIP) {
-            whole if whole == given.len() => given.to_string(),
-            part => format!("{}...", &given[..part]),
-        };
+        let mut shown: String = given.chars().take(LONGEST_SLIP).collect();
+        if shown.len() < given.len() {
+            shown.push_str("...");
+        }
         return format!("{what} `{shown}`{}", one_of(given, known, "allowed here"));
     }
     let given = span.and_then(|span| text.get(span)).unwrap_or_default();
