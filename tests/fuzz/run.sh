@@ -35,6 +35,13 @@ host=$(rustc -vV | sed -n 's/^host: //p')
 # Seeds are made by the code that the tests use, in the target folder of the ordinary builds.
 env -u RUSTC_BOOTSTRAP -u CARGO_TARGET_DIR cargo run --quiet --release -p hostile-files --example seeds -- "$out/seeds"
 
+# Readers are given files: in memory they are there in no time.
+if [ -d /dev/shm ] && [ -w /dev/shm ]; then
+    TMPDIR=$(mktemp -d /dev/shm/fuzz-XXXXXX)
+    export TMPDIR
+    trap 'rm -rf "$TMPDIR"' EXIT
+fi
+
 broken=0
 for target in ${TARGETS:-$(cargo fuzz list --fuzz-dir fuzz)}; do
     mkdir -p "$out/found/$target" "$out/broken/$target"

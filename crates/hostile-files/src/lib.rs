@@ -17,7 +17,7 @@ mod cage;
 mod description;
 mod mission;
 mod run_record;
-mod saved_state;
+pub mod saved_state;
 mod study_file;
 mod system_structure;
 pub mod zips;

@@ -2,6 +2,7 @@
 //!
 //! The FMUs are C libraries and no crates, so that models of what they hold stand here: a filter, and a world.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::OnceLock;
 
 use filters::laws::FILTERS;
@@ -45,6 +46,46 @@ fn feed(bytes: &[u8]) {
         restore::<Filter>(&state);
     } else {
         restore::<World>(&state);
+    }
+}
+
+/// How an instance goes on from a state that somebody has changed and sealed again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stepped {
+    /// It is no state.
+    Refused,
+    /// The step is made.
+    Well,
+    /// The step is refused or fails, with an error.
+    Failed,
+    /// The model panics, which an exported FMU tells its master as `fmi2Fatal`.
+    Panicked,
+}
+
+/// Takes one step from a state, which begins as for fuzzing.
+pub fn step(bytes: &[u8]) -> Stepped {
+    let Some((first, rest)) = bytes.split_first() else {
+        return Stepped::Refused;
+    };
+    if first & 1 == 0 {
+        step_of::<Filter>(&sealed(rest))
+    } else {
+        step_of::<World>(&sealed(rest))
+    }
+}
+
+fn step_of<M: Model>(bytes: &[u8]) -> Stepped {
+    let Ok(state) = Snapshot::<M>::from_bytes(bytes, &SEAL) else {
+        return Stepped::Refused;
+    };
+    let mut instance = Instance::<M>::new();
+    instance.set_state(state);
+    let time = instance.time();
+    let stepped = catch_unwind(AssertUnwindSafe(|| instance.do_step(time, 1.0, &mut Log::silent())));
+    match stepped {
+        Ok(Ok(())) => Stepped::Well,
+        Ok(Err(_)) => Stepped::Failed,
+        Err(_) => Stepped::Panicked,
     }
 }
 
@@ -122,7 +163,13 @@ impl Model for Filter {
         Ok(())
     }
 
-    fn do_step(&mut self, _: f64, _: f64, _: &mut Log<'_>) -> Result<(), ModelError> {
+    fn do_step(&mut self, t: f64, h: f64, _: &mut Log<'_>) -> Result<(), ModelError> {
+        if let Some(navigator) = &mut self.navigator {
+            navigator.step(t, h, &self.command);
+            navigator.process(&sample(6), &start())?;
+            navigator.wait(h);
+            navigator.predict();
+        }
         Ok(())
     }
 }
@@ -149,7 +196,14 @@ impl Model for World {
         Ok(())
     }
 
-    fn do_step(&mut self, _: f64, _: f64, _: &mut Log<'_>) -> Result<(), ModelError> {
+    fn check_step(&self, t: f64, h: f64) -> Result<(), ModelError> {
+        self.simulation.as_ref().map_or(Ok(()), |s| Ok(s.check_end(t + h)?))
+    }
+
+    fn do_step(&mut self, t: f64, h: f64, _: &mut Log<'_>) -> Result<(), ModelError> {
+        if let Some(simulation) = &mut self.simulation {
+            simulation.advance_to(t + h, &self.inputs)?;
+        }
         Ok(())
     }
 }
@@ -168,12 +222,8 @@ fn seeds() -> Vec<(String, Vec<u8>)> {
                 continue;
             };
             for count in 1..=5 {
-                let mut sample = Sample::blank(count, f64::from(count));
-                sample[Sensor::Lidar] = Reading::of(&[1000.0, 0.01, -0.01]);
-                sample[Sensor::Metrology] = Reading::of(&[100.0, 900.0, -300.0, 0.1, 0.2, 0.3]);
-                sample.accelerometer = Some(SpecificForce::Instant(Vector3::repeat(1e-6)));
                 // What it thinks of the sample is no matter.
-                let _ = navigator.process(&sample, &start());
+                let _ = navigator.process(&sample(count), &start());
             }
             let model = Filter {
                 settings,
@@ -196,6 +246,15 @@ fn seeds() -> Vec<(String, Vec<u8>)> {
         both(entry.name, 1, &model, ordinal == 1, &mut seeds);
     }
     seeds
+}
+
+/// What every sensor that a filter may use reports.
+fn sample(count: i32) -> Sample {
+    let mut sample = Sample::blank(count, f64::from(count));
+    sample[Sensor::Lidar] = Reading::of(&[1000.0, 0.01, -0.01]);
+    sample[Sensor::Metrology] = Reading::of(&[100.0, 900.0, -300.0, 0.1, 0.2, 0.3]);
+    sample.accelerometer = Some(SpecificForce::Instant(Vector3::repeat(1e-6)));
+    sample
 }
 
 /// Relative state, target's orbit and bias to begin with.

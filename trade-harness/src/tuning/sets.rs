@@ -1,6 +1,5 @@
 //! `tuned.json`: what a search found, in a form that `--tuned` reads back.
 
-use std::fs;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
