@@ -277,6 +277,20 @@ fn arrows_between_crates_go_one_way() {
             "study",
             &["interface", "numerics", "astro", "stats", "fmi2-import", "cosim"],
         ),
+        // Readers of files and what they make, fed from tests and fuzz targets; known by nobody.
+        (
+            "hostile-files",
+            &[
+                "interface",
+                "truth",
+                "filters",
+                "fmi-model",
+                "fmi2-import",
+                "fmi2-check",
+                "ssp",
+                "study",
+            ],
+        ),
         (
             "trade-harness",
             &[

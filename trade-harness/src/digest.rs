@@ -1,6 +1,7 @@
 //! SHA-256 of what a study is made of, in hexadecimal digits.
 
-use std::fs;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
@@ -9,19 +10,35 @@ use crate::HarnessError;
 
 /// Digest of bytes.
 pub fn of_bytes(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    hexadecimal(&Sha256::digest(bytes))
 }
 
-/// Digest of the contents of a file.
+/// Digest of the contents of a file, which may be larger than memory.
 ///
 /// # Errors
 /// [`HarnessError::Read`].
 pub fn of_file(path: &Path) -> Result<String, HarnessError> {
-    let bytes = fs::read(path).map_err(|source| HarnessError::Read {
+    of_contents(path).map_err(|source| HarnessError::Read {
         path: path.to_owned(),
         source,
-    })?;
-    Ok(of_bytes(&bytes))
+    })
+}
+
+fn of_contents(path: &Path) -> io::Result<String> {
+    let mut file = File::open(path)?;
+    let (mut digest, mut buffer) = (Sha256::new(), [0; 1 << 16]);
+    loop {
+        match file.read(&mut buffer) {
+            Ok(0) => return Ok(hexadecimal(&digest.finalize())),
+            Ok(count) => digest.update(&buffer[..count]),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => (),
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+fn hexadecimal(digest: &[u8]) -> String {
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]
@@ -35,7 +52,7 @@ mod tests {
         assert_eq!(of_bytes(b"abc"), expected);
         let dir = tempfile::tempdir().unwrap();
         let file = dir.path().join("abc");
-        fs::write(&file, "abc").unwrap();
+        std::fs::write(&file, "abc").unwrap();
         assert_eq!(of_file(&file).unwrap(), expected);
         let error = of_file(&dir.path().join("none")).unwrap_err();
         assert!(matches!(error, HarnessError::Read { .. }), "{error}");

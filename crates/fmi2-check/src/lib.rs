@@ -27,7 +27,7 @@ pub use options::Running;
 pub use render::document;
 pub use rule::{Rule, Severity};
 
-use archive::{Archive, DESCRIPTION};
+use archive::Archive;
 use description::view::View;
 use xml::conform::conform;
 use xml::schema;
@@ -42,7 +42,8 @@ use xml::tree::{Node, parse};
 pub fn check(path: &Path, running: Option<&Running>) -> Result<Findings, CheckError> {
     let mut findings = Findings::default();
     let mut archive = Archive::open(path, &mut findings)?;
-    let root = archive.read(DESCRIPTION).and_then(|bytes| parse(&bytes, &mut findings));
+    let description = archive.description(&mut findings);
+    let root = description.and_then(|bytes| parse(&bytes, &mut findings));
     let interfaces: Vec<&Node> = ["ModelExchange", "CoSimulation"]
         .into_iter()
         .flat_map(|name| root.iter().flat_map(move |root| root.named(name)))

@@ -1,6 +1,6 @@
 //! The zip archive: checked once when it is opened, unpacked when the library is wanted.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -10,25 +10,22 @@ use zip::ZipArchive;
 use zip::result::ZipError;
 
 use crate::ImportError;
+use crate::limits::{self, Budget, Stopped};
 use crate::platform::PLATFORM;
 
 const DESCRIPTION: &str = "modelDescription.xml";
-
-/// Largest modelDescription.xml, bytes.
-const DESCRIPTION_LIMIT: u64 = 64 << 20;
-
-/// Most bytes that an FMU may unpack to.
-const UNPACK_LIMIT: u64 = 4 << 30;
 
 /// An opened archive whose entries all stay inside their folder.
 #[derive(Debug)]
 pub(crate) struct Archive {
     path: PathBuf,
+    /// Its size, bytes.
+    size: u64,
     zip: ZipArchive<BufReader<File>>,
 }
 
 impl Archive {
-    /// Opens `path` and refuses entries that point outside the archive.
+    /// Opens `path` and refuses entries that point outside the archive, stand twice in it or share their bytes.
     pub(crate) fn open(path: &Path) -> Result<Self, ImportError> {
         let read = |source: io::Error| match source.kind() {
             io::ErrorKind::NotFound => ImportError::NotFound { path: path.to_owned() },
@@ -38,19 +35,48 @@ impl Archive {
             },
         };
         let file = File::open(path).map_err(read)?;
-        if file.metadata().map_err(read)?.is_dir() {
+        let facts = file.metadata().map_err(read)?;
+        if facts.is_dir() {
             return Err(read(io::Error::from(io::ErrorKind::IsADirectory)));
         }
         let zip = ZipArchive::new(BufReader::new(file)).map_err(|e| not_an_archive(path, &e))?;
         let mut archive = Self {
             path: path.to_owned(),
+            size: facts.len(),
             zip,
         };
+        archive.check_directory()?;
         archive.check_entries()?;
         Ok(archive)
     }
 
+    /// Refuses what readers could take for different archives, or for more than it is.
+    fn check_directory(&mut self) -> Result<(), ImportError> {
+        let shared = self
+            .zip
+            .has_overlapping_files()
+            .map_err(|e| not_an_archive(&self.path, &e))?;
+        let reason = if self.zip.len() > limits::ENTRIES {
+            format!(
+                "it has {} entries, at most {} are read",
+                self.zip.len(),
+                limits::ENTRIES
+            )
+        } else if self.zip.has_duplicate_names() {
+            "two entries have one name".to_owned()
+        } else if shared {
+            "two entries share their bytes, as in a zip bomb".to_owned()
+        } else {
+            return Ok(());
+        };
+        Err(ImportError::NotAnArchive {
+            path: self.path.clone(),
+            reason,
+        })
+    }
+
     fn check_entries(&mut self) -> Result<(), ImportError> {
+        let mut files = HashSet::new();
         for i in 0..self.zip.len() {
             let entry = self.zip.by_index_raw(i).map_err(|e| not_an_archive(&self.path, &e))?;
             let name = String::from_utf8_lossy(entry.name_raw()).into_owned();
@@ -59,6 +85,9 @@ impl Archive {
                 None => "points outside the archive",
                 Some(path) if needed(&path) && !path.iter().all(writable) => {
                     "cannot be written, since file names of this system hold none of <>:\"|?*, end in no dot or blank and are no device"
+                }
+                Some(ref path) if !entry.is_dir() && !files.insert(as_the_system_sees(path)) => {
+                    "would be unpacked over another entry"
                 }
                 Some(_) => continue,
             };
@@ -85,14 +114,14 @@ impl Archive {
         let mut bytes = Vec::new();
         // The limit counts real bytes, since the size that an archive declares may be a lie.
         entry
-            .take(DESCRIPTION_LIMIT + 1)
+            .take(limits::DESCRIPTION + 1)
             .read_to_end(&mut bytes)
-            .map_err(|e| not_an_archive(&self.path, &ZipError::Io(e)))?;
-        if bytes.len() as u64 > DESCRIPTION_LIMIT {
+            .map_err(|e| damaged(&self.path, DESCRIPTION, &e))?;
+        if bytes.len() as u64 > limits::DESCRIPTION {
             return Err(ImportError::TooLarge {
                 path: self.path.clone(),
                 what: DESCRIPTION.to_owned(),
-                limit_bytes: DESCRIPTION_LIMIT,
+                limit_bytes: limits::DESCRIPTION,
             });
         }
         Ok(bytes)
@@ -131,7 +160,7 @@ impl Archive {
         let resources = folder.path().join("resources");
         fs::create_dir_all(&resources).map_err(|e| failed(&self.path, &resources, e))?;
 
-        let mut left = UNPACK_LIMIT;
+        let mut budget = Budget::of(self.size);
         for i in 0..self.zip.len() {
             let entry = self.zip.by_index(i).map_err(|e| not_an_archive(&self.path, &e))?;
             // `check_entries` has refused archives where this is None.
@@ -150,11 +179,14 @@ impl Archive {
                 fs::create_dir_all(parent).map_err(|e| failed(&self.path, parent, e))?;
             }
             let mut file = File::create(&target).map_err(|e| failed(&self.path, &target, e))?;
-            let written = io::copy(&mut entry.take(left + 1), &mut file).map_err(|e| failed(&self.path, &target, e))?;
-            left = left.checked_sub(written).ok_or_else(|| ImportError::TooLarge {
-                path: self.path.clone(),
-                what: "the unpacked FMU".to_owned(),
-                limit_bytes: UNPACK_LIMIT,
+            budget.copy(entry, &mut file).map_err(|stopped| match stopped {
+                Stopped::Read(error) => damaged(&self.path, &name.display().to_string(), &error),
+                Stopped::Write(error) => failed(&self.path, &target, error),
+                Stopped::Full => ImportError::TooLarge {
+                    path: self.path.clone(),
+                    what: "the unpacked FMU".to_owned(),
+                    limit_bytes: budget.limit(),
+                },
             })?;
         }
         Ok(folder)
@@ -213,6 +245,14 @@ fn writable(part: &std::ffi::OsStr) -> bool {
         && !numbered("LPT")
 }
 
+/// A path by which the system tells files apart.
+fn as_the_system_sees(path: &Path) -> PathBuf {
+    if cfg!(any(windows, target_os = "macos")) {
+        return path.to_string_lossy().to_lowercase().into();
+    }
+    path.to_owned()
+}
+
 fn needed(entry: &Path) -> bool {
     if entry.starts_with("binaries") {
         return entry.starts_with(Path::new("binaries").join(PLATFORM));
@@ -224,6 +264,13 @@ fn not_an_archive(path: &Path, error: &ZipError) -> ImportError {
     ImportError::NotAnArchive {
         path: path.to_owned(),
         reason: error.to_string(),
+    }
+}
+
+fn damaged(path: &Path, entry: &str, error: &io::Error) -> ImportError {
+    ImportError::NotAnArchive {
+        path: path.to_owned(),
+        reason: format!("entry {entry}: {error}"),
     }
 }
 

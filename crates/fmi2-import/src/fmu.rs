@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use tempfile::TempDir;
+
 use crate::archive::Archive;
 use crate::description::ModelDescription;
 use crate::library::Binary;
@@ -72,6 +74,15 @@ impl Fmu {
     /// [`ImportError::MissingSymbol`] or [`ImportError::Incompatible`].
     pub fn load(&self) -> Result<(), ImportError> {
         self.binary().map(drop)
+    }
+
+    /// Unpacks what a running FMU may look at, without loading anything; the folder goes with what is returned.
+    ///
+    /// # Errors
+    /// [`ImportError::Unpack`], [`ImportError::TooLarge`] or [`ImportError::NotAnArchive`].
+    pub fn unpack(&self) -> Result<TempDir, ImportError> {
+        let mut loading = self.loading.lock().unwrap_or_else(PoisonError::into_inner);
+        loading.archive.unpack()
     }
 
     /// Creates an instance called `name`.

@@ -13,6 +13,7 @@ mod guard;
 mod handles;
 mod instance;
 mod library;
+pub mod limits;
 pub mod loader;
 mod logger;
 mod notation;

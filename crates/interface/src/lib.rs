@@ -10,6 +10,7 @@ pub mod ports;
 pub mod render;
 pub mod signals;
 pub mod status;
+pub mod text;
 
 pub use bound::{Bound, OutOfRange};
 pub use mission::{Mission, MissionError, Navigation, Sensor};

@@ -138,6 +138,12 @@ struct Walk<'a> {
     held: BTreeMap<Port, Given>,
 }
 
+/// Connectors of systems that values pass on their way, at most.
+const LONGEST_WAY: usize = 1000;
+
+/// Longest name of an element with those of its systems, bytes.
+const LONGEST_NAME: usize = 2000;
+
 fn joined(path: &str, name: &str) -> String {
     if path.is_empty() {
         name.to_owned()
@@ -166,6 +172,10 @@ impl Walk<'_> {
         }
         for element in &system.elements {
             let name = joined(path, element.name());
+            if name.len() > LONGEST_NAME {
+                let problem = format!("its name is longer than {LONGEST_NAME} bytes, with those of its systems");
+                return Err(SspError::structure(format!("element '{}'", element.name()), problem));
+            }
             match element {
                 Element::Component(component) => self.component(&name, component)?,
                 Element::System(inner) => self.system(&name, inner)?,
@@ -329,7 +339,7 @@ impl Walk<'_> {
     fn origin(&self, port: &Port, (source, way): &(Port, Way)) -> Result<(Port, Way), SspError> {
         let (mut at, mut way) = (source.clone(), way.clone());
         // Each connector is passed once at most.
-        for _ in 0..=self.wires.len() {
+        for _ in 0..=self.wires.len().min(LONGEST_WAY) {
             let Some((source, step)) = self.wires.get(&at) else {
                 return Ok((at, way));
             };
@@ -338,7 +348,7 @@ impl Walk<'_> {
         }
         Err(SspError::structure(
             format!("connector {}", shown(port)),
-            "is fed by itself through connectors of systems; take one of these connections away",
+            "is fed by itself through connectors of systems, or through too many; take one of these connections away",
         ))
     }
 

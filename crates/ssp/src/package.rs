@@ -17,8 +17,20 @@ use crate::read::structure;
 /// Name of the structure's file.
 pub const STRUCTURE: &str = "SystemStructure.ssd";
 
-/// Most bytes of a file that is read.
-const LIMIT: u64 = 4 << 30;
+/// Most bytes of a file that is read, be it an FMU.
+const LIMIT: u64 = 1 << 30;
+
+/// Most bytes of XML.
+const XML_LIMIT: u64 = 64 << 20;
+
+/// Most bytes that all files of an archive may unpack to.
+const MOST: u64 = 4 << 30;
+
+/// What they may unpack to however small the archive is, bytes.
+const ALWAYS: u64 = 256 << 20;
+
+/// Most bytes for each byte of the archive beyond that: deflate makes up to a thousand of one, FMUs a few.
+const RATIO: u64 = 200;
 
 /// An opened SSP.
 #[derive(Debug)]
@@ -30,7 +42,11 @@ pub struct Package {
 
 #[derive(Debug)]
 enum Place {
-    Archive(ZipArchive<BufReader<File>>),
+    Archive {
+        zip: ZipArchive<BufReader<File>>,
+        /// Bytes that may still be read from it.
+        left: u64,
+    },
     /// Folder of the `.ssd` file.
     Folder(PathBuf),
 }
@@ -57,10 +73,18 @@ impl Package {
             (Place::Folder(path.parent().unwrap_or(Path::new("")).to_owned()), name)
         } else {
             let file = File::open(path).map_err(failed)?;
-            let archive = ZipArchive::new(BufReader::new(file)).map_err(no_archive)?;
-            (Place::Archive(archive), STRUCTURE.to_owned())
+            let size = file.metadata().map_err(failed)?.len();
+            let zip = ZipArchive::new(BufReader::new(file)).map_err(no_archive)?;
+            if zip.has_duplicate_names() {
+                return Err(SspError::NotAnArchive {
+                    path: path.to_owned(),
+                    reason: "two entries have one name".to_owned(),
+                });
+            }
+            let left = size.saturating_mul(RATIO).clamp(ALWAYS, MOST);
+            (Place::Archive { zip, left }, STRUCTURE.to_owned())
         };
-        let bytes = match place.bytes(path, &name) {
+        let bytes = match place.bytes(path, &name, XML_LIMIT) {
             Ok(bytes) => bytes,
             Err(Lost::Absent) => {
                 return Err(SspError::NotAnArchive {
@@ -70,7 +94,7 @@ impl Package {
             }
             Err(Lost::Other(error)) => return Err(error),
         };
-        let structure = structure(&name, &bytes, &mut |by, uri| place.source(path, by, uri))?;
+        let structure = structure(&name, &bytes, &mut |by, uri| place.source(path, by, uri, XML_LIMIT))?;
         Ok(Self {
             path: path.to_owned(),
             structure,
@@ -96,7 +120,7 @@ impl Package {
     /// # Errors
     /// [`SspError::Source`], [`SspError::Missing`], [`SspError::TooLarge`], [`SspError::Read`].
     pub fn source(&mut self, by: &str, uri: &str) -> Result<Vec<u8>, SspError> {
-        self.place.source(&self.path, by, uri)
+        self.place.source(&self.path, by, uri, LIMIT)
     }
 
     /// An archive of a structure and its files, which depends on names and contents alone. The structure stands first, then the
@@ -173,7 +197,7 @@ enum Lost {
 
 impl Place {
     /// A file that a URI names.
-    fn source(&mut self, path: &Path, by: &str, uri: &str) -> Result<Vec<u8>, SspError> {
+    fn source(&mut self, path: &Path, by: &str, uri: &str, limit: u64) -> Result<Vec<u8>, SspError> {
         let wrong = |why| SspError::Source {
             by: by.to_owned(),
             uri: uri.to_owned(),
@@ -198,7 +222,7 @@ impl Place {
             if !Path::new(absolute).is_absolute() {
                 return Err(wrong("has no absolute path"));
             }
-            return match read_limited(File::open(absolute), path, uri) {
+            return match read_limited(File::open(absolute), path, uri, limit) {
                 Err(Lost::Absent) => Err(missing()),
                 Err(Lost::Other(error)) => Err(error),
                 Ok(bytes) => Ok(bytes),
@@ -208,23 +232,27 @@ impl Place {
             return Err(wrong("is of another scheme than file:"));
         }
         let name = inside(&text).ok_or_else(|| wrong("does not lead into the SSP"))?;
-        match self.bytes(path, &name) {
+        match self.bytes(path, &name, limit) {
             Err(Lost::Absent) => Err(missing()),
             Err(Lost::Other(error)) => Err(error),
             Ok(bytes) => Ok(bytes),
         }
     }
 
-    fn bytes(&mut self, path: &Path, name: &str) -> Result<Vec<u8>, Lost> {
+    fn bytes(&mut self, path: &Path, name: &str, limit: u64) -> Result<Vec<u8>, Lost> {
         match self {
-            Self::Folder(folder) => read_limited(File::open(folder.join(name)), path, name),
-            Self::Archive(archive) => match archive.by_name(name) {
+            Self::Folder(folder) => read_limited(File::open(folder.join(name)), path, name, limit),
+            Self::Archive { zip, left } => match zip.by_name(name) {
                 Err(ZipError::FileNotFound) => Err(Lost::Absent),
                 Err(error) => Err(Lost::Other(SspError::NotAnArchive {
                     path: path.to_owned(),
-                    reason: error.to_string(),
+                    reason: format!("entry {name}: {error}"),
                 })),
-                Ok(entry) => read_limited(Ok(entry), path, name),
+                Ok(entry) => {
+                    let bytes = read_limited(Ok(entry), path, name, limit.min(*left))?;
+                    *left = left.saturating_sub(bytes.len() as u64);
+                    Ok(bytes)
+                }
             },
         }
     }
@@ -261,7 +289,7 @@ fn inside(path: &str) -> Option<String> {
     (!steps.is_empty()).then(|| steps.join("/"))
 }
 
-fn read_limited(file: io::Result<impl Read>, path: &Path, name: &str) -> Result<Vec<u8>, Lost> {
+fn read_limited(file: io::Result<impl Read>, path: &Path, name: &str, limit: u64) -> Result<Vec<u8>, Lost> {
     let failed = |source: io::Error| {
         Lost::Other(SspError::Read {
             path: path.join(name),
@@ -274,12 +302,12 @@ fn read_limited(file: io::Result<impl Read>, path: &Path, name: &str) -> Result<
     })?;
     let mut bytes = Vec::new();
     // The limit counts real bytes, since the size that an archive declares may be a lie.
-    file.take(LIMIT + 1).read_to_end(&mut bytes).map_err(failed)?;
-    if bytes.len() as u64 > LIMIT {
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > limit {
         return Err(Lost::Other(SspError::TooLarge {
             path: path.to_owned(),
             name: name.to_owned(),
-            limit: LIMIT,
+            limit,
         }));
     }
     Ok(bytes)

@@ -1,11 +1,13 @@
 //! Elements of `.ssd`, `.ssv` and `.ssm` files as values.
 
+use std::collections::HashSet;
+
 use crate::SspError;
 use crate::model::{
     BaseUnit, Binding, Component, Connection, Connector, DataType, Element, End, Experiment, FMU, Kind, Linear,
     MappingEntry, Other, Parameter, ParameterSet, System, SystemStructure, Unit, Value,
 };
-use crate::tree::{Node, parse};
+use crate::tree::{ELEMENTS, Node, parse};
 
 /// Annotations of the Open Simulation Platform.
 pub(crate) const OSP: &str = "com.opensimulationplatform";
@@ -18,8 +20,13 @@ pub(crate) type Files<'a> = dyn FnMut(&str, &str) -> Result<Vec<u8>, SspError> +
 
 /// Reads the structure, and the files that its bindings name.
 pub(crate) fn structure(file: &str, bytes: &[u8], files: &mut Files<'_>) -> Result<SystemStructure, SspError> {
-    let root = parse(file, bytes)?;
-    let mut reader = Reader { file, files };
+    let mut left = ELEMENTS;
+    let root = parse(file, bytes, &mut left)?;
+    let mut reader = Reader {
+        file,
+        files,
+        left: &mut left,
+    };
     if root.name != "ssd:SystemStructureDescription" {
         return Err(reader.wrong(&root, "is not ssd:SystemStructureDescription of SSP 1.0"));
     }
@@ -55,9 +62,20 @@ struct Reader<'a, 'f> {
     /// The file that is read, for messages.
     file: &'a str,
     files: &'a mut Files<'f>,
+    /// Elements that may still be read.
+    left: &'a mut usize,
 }
 
-impl Reader<'_, '_> {
+impl<'f> Reader<'_, 'f> {
+    /// The reader of another file of the structure.
+    fn of<'b>(&'b mut self, file: &'b str) -> Reader<'b, 'f> {
+        Reader {
+            file,
+            files: &mut *self.files,
+            left: &mut *self.left,
+        }
+    }
+
     fn wrong(&self, node: &Node, problem: impl Into<String>) -> SspError {
         SspError::Invalid {
             file: self.file.to_owned(),
@@ -107,6 +125,7 @@ impl Reader<'_, '_> {
 
     fn system(&mut self, node: &Node) -> Result<System, SspError> {
         let mut elements: Vec<Element> = Vec::new();
+        let mut names = HashSet::new();
         for child in node.list("ssd:Elements") {
             let element = match child.name.as_str() {
                 "ssd:Component" => Element::Component(self.component(child)?),
@@ -116,7 +135,7 @@ impl Reader<'_, '_> {
                     return Err(self.wrong(child, problem));
                 }
             };
-            if elements.iter().any(|other| other.name() == element.name()) {
+            if !names.insert(element.name().to_owned()) {
                 return Err(self.wrong(child, "a second element of this name; give each a name of its own"));
             }
             elements.push(element);
@@ -146,6 +165,7 @@ impl Reader<'_, '_> {
 
     fn connectors(&self, node: &Node) -> Result<Vec<Connector>, SspError> {
         let mut connectors: Vec<Connector> = Vec::new();
+        let mut names = HashSet::new();
         for child in node.list("ssd:Connectors") {
             if child.name != "ssd:Connector" {
                 return Err(self.wrong(child, "is no ssd:Connector"));
@@ -157,7 +177,7 @@ impl Reader<'_, '_> {
                 let names = Kind::ALL.map(|(_, name)| name).join(", ");
                 self.wrong(child, format!("kind '{kind}' is not read; give {names}"))
             })?;
-            if connectors.iter().any(|other| other.name == name) {
+            if !names.insert(name.clone()) {
                 return Err(self.wrong(child, "a second connector of this name"));
             }
             connectors.push(Connector {
@@ -238,11 +258,8 @@ impl Reader<'_, '_> {
         let values = match (source, node.child("ssd:ParameterValues")) {
             (Some(uri), None) => {
                 let bytes = (self.files)(&by, uri)?;
-                let inner = Reader {
-                    file: uri,
-                    files: &mut *self.files,
-                };
-                inner.parameter_set(&parse(uri, &bytes)?)?
+                let root = parse(uri, &bytes, self.left)?;
+                self.of(uri).parameter_set(&root)?
             }
             (None, Some(inline)) => match inline.child("ssv:ParameterSet") {
                 Some(set) => self.parameter_set(set)?,
@@ -254,11 +271,8 @@ impl Reader<'_, '_> {
             self.readable(mapping, "application/x-ssp-parameter-mapping")?;
             if let Some(uri) = mapping.attribute("source") {
                 let bytes = (self.files)(&by, uri)?;
-                let inner = Reader {
-                    file: uri,
-                    files: &mut *self.files,
-                };
-                return inner.mapping(&parse(uri, &bytes)?);
+                let root = parse(uri, &bytes, self.left)?;
+                return self.of(uri).mapping(&root);
             }
             let inline = mapping.child("ssm:ParameterMapping");
             self.mapping(inline.ok_or_else(|| self.wrong(mapping, "holds no ssm:ParameterMapping"))?)
@@ -307,9 +321,10 @@ impl Reader<'_, '_> {
             return Err(self.wrong(node, "is not ssv:ParameterSet of SSP 1.0"));
         }
         let mut parameters: Vec<Parameter> = Vec::new();
+        let mut names = HashSet::new();
         for child in node.list("ssv:Parameters") {
             let parameter = self.parameter(child)?;
-            if parameters.iter().any(|other| other.name == parameter.name) {
+            if !names.insert(parameter.name.clone()) {
                 return Err(self.wrong(child, "a second value of this name"));
             }
             parameters.push(parameter);

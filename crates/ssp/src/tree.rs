@@ -27,6 +27,15 @@ pub(crate) fn namespace(part: &str) -> String {
 /// Deepest nesting that is read; what is deeper is no system structure.
 const DEEPEST: usize = 200;
 
+/// Elements of all files of a structure, at most: the parts of a structure are held against each other.
+pub(crate) const ELEMENTS: usize = 200_000;
+
+/// Longest attribute, bytes, but for [`LONG`]: names go into those of everything inside.
+const ATTRIBUTE: usize = 1000;
+
+/// Attributes that may be long.
+const LONG: [&str; 2] = ["description", "value"];
+
 /// An element.
 #[derive(Debug)]
 pub(crate) struct Node {
@@ -67,7 +76,8 @@ impl Node {
 /// Reads a document.
 ///
 /// * `file`: what messages call it.
-pub(crate) fn parse(file: &str, bytes: &[u8]) -> Result<Node, SspError> {
+/// * `left`: elements that may still be read.
+pub(crate) fn parse(file: &str, bytes: &[u8], left: &mut usize) -> Result<Node, SspError> {
     let wrong = |line: usize, problem: String| SspError::Xml {
         file: file.to_owned(),
         line,
@@ -90,6 +100,10 @@ pub(crate) fn parse(file: &str, bytes: &[u8]) -> Result<Node, SspError> {
         let (space, event) = reader
             .read_resolved_event()
             .map_err(|error| wrong(line, error.to_string()))?;
+        if matches!(event, Event::Start(_) | Event::Empty(_)) {
+            let fewer = left.checked_sub(1);
+            *left = fewer.ok_or_else(|| wrong(line, format!("the structure has more than {ELEMENTS} elements")))?;
+        }
         let closed = match event {
             Event::Start(start) => {
                 if open.len() == DEEPEST {
@@ -157,6 +171,9 @@ fn node(space: &ResolveResult<'_>, start: &BytesStart<'_>, line: usize) -> Resul
             .normalized_value(XmlVersion::Implicit1_0)
             .map_err(|error| error.to_string())?;
         let key: &str = attribute.key.as_ref();
+        if value.len() > ATTRIBUTE && !LONG.contains(&key) {
+            return Err(format!("an attribute of {local} is longer than {ATTRIBUTE} bytes"));
+        }
         attributes.push((key.to_owned(), value.into_owned()));
     }
     Ok(Node {

@@ -312,6 +312,14 @@ pub enum StudyError {
         /// What the system says.
         source: std::io::Error,
     },
+    /// A journal with a run that no study has written there.
+    #[error("{}: {problem}; remove this file, and its runs are made again", path.display())]
+    DamagedJournal {
+        /// The file.
+        path: PathBuf,
+        /// Which run, and what is wrong with it.
+        problem: String,
+    },
     /// A journal of finished runs of another study.
     #[error("{} holds the runs of another study", path.display())]
     OtherJournal {

@@ -22,7 +22,7 @@ impl Plan {
             path: path.to_owned(),
             source,
         };
-        let text = std::fs::read_to_string(path).map_err(failed)?;
+        let text = interface::text::read(path).map_err(failed)?;
         let mut plan = Self::parse(&path.display().to_string(), &text)?;
         let whole = std::path::absolute(path).map_err(failed)?;
         let folder = whole.parent().unwrap_or(Path::new(""));

@@ -24,6 +24,9 @@ pub struct Flown<'a> {
 #[derive(Debug)]
 struct Case<'a> {
     journal: &'a Journal,
+    /// How many filters and epochs its runs have.
+    filters: usize,
+    epochs: usize,
     /// Place of a filter in that case, and in this one.
     places: Vec<(usize, usize)>,
 }
@@ -48,7 +51,12 @@ impl<'a> Flown<'a> {
                 found[*here] = true;
             }
             if !places.is_empty() {
-                cases.push(Case { journal, places });
+                cases.push(Case {
+                    journal,
+                    filters: other.filters.len(),
+                    epochs: other.epochs(),
+                    places,
+                });
             }
         }
         Self { cases }
@@ -59,12 +67,14 @@ impl<'a> Flown<'a> {
     /// * `parts`: by filter of this case; what is found is filled in.
     ///
     /// # Errors
-    /// [`StudyError::Journal`].
+    /// [`StudyError::Journal`], [`StudyError::DamagedJournal`].
     pub(crate) fn fill(&self, whole: &mut Outcome, parts: &mut [Option<Part>]) -> Result<(), StudyError> {
         for case in &self.cases {
             let Some(mut outcome) = case.journal.read(whole.run)? else {
                 continue;
             };
+            let fits = outcome.fits(whole.run, case.filters, case.epochs);
+            fits.map_err(|problem| case.journal.damaged(problem))?;
             let mut known: Vec<_> = std::mem::take(&mut outcome.parts).into_iter().map(Some).collect();
             whole.join(outcome);
             for (there, here) in &case.places {

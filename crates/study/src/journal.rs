@@ -110,7 +110,9 @@ impl Journal {
         });
         read.map_err(|source| self.failed(source))?;
         let outcome = Outcome::from_bytes(&contents);
-        outcome.map(Some).map_err(|e| self.failed(io::Error::other(e)))
+        outcome
+            .map(Some)
+            .map_err(|e| self.damaged(format!("run {run} at byte {begin}: {e}")))
     }
 
     /// Adds a run, whole or not at all.
@@ -164,6 +166,14 @@ impl Journal {
 
     fn spare(&self) -> MutexGuard<'_, Vec<Vec<u8>>> {
         self.spare.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// That a run in it is none of the study, though its checksum is right.
+    pub(crate) fn damaged(&self, problem: String) -> StudyError {
+        StudyError::DamagedJournal {
+            path: self.path.clone(),
+            problem,
+        }
     }
 
     fn failed(&self, source: io::Error) -> StudyError {

@@ -13,7 +13,7 @@ use crate::error::StudyError;
 /// # Errors
 /// [`StudyError::File`], [`StudyError::FileProblem`] with line and column, [`StudyError::Mappings`].
 pub fn read_mappings(path: &Path) -> Result<Vec<Mapping>, StudyError> {
-    let text = std::fs::read_to_string(path).map_err(|source| StudyError::File {
+    let text = interface::text::read(path).map_err(|source| StudyError::File {
         path: path.to_owned(),
         source,
     })?;

@@ -109,7 +109,7 @@ impl Outcome {
         Ok(bytes)
     }
 
-    /// From such bytes.
+    /// From such bytes, all of them.
     ///
     /// # Errors
     /// When they are something else.
@@ -120,12 +120,45 @@ impl Outcome {
             let records = record::from_bytes(&mut rest).ok_or(postcard::Error::DeserializeUnexpectedEnd)?;
             Ok(Part { row, records, time })
         });
+        let parts = parts.collect::<Result<_, postcard::Error>>()?;
+        if !rest.is_empty() {
+            return Err(postcard::Error::DeserializeBadEncoding);
+        }
         Ok(Self {
             run,
             steps,
             truth_time,
             path,
-            parts: parts.collect::<Result<_, postcard::Error>>()?,
+            parts,
         })
+    }
+
+    /// Whether it is a run of a study of so many filters and epochs: what a journal holds, somebody may have written.
+    ///
+    /// * `run`: number that it goes by.
+    ///
+    /// # Errors
+    /// What does not belong there.
+    pub fn fits(&self, run: u32, filters: usize, epochs: usize) -> Result<(), String> {
+        let numbers = std::iter::once(self.run).chain(self.parts.iter().map(|part| part.row.run));
+        if let Some(other) = numbers.into_iter().find(|other| *other != run) {
+            return Err(format!("run {run} says that it is run {other}"));
+        }
+        if self.parts.len() != filters {
+            return Err(format!(
+                "run {run} has {} filters, the study has {filters}",
+                self.parts.len()
+            ));
+        }
+        let records = self
+            .parts
+            .iter()
+            .flat_map(|part| &part.records)
+            .map(|record| record.epoch);
+        let points = self.path.iter().map(|point| point.epoch);
+        match records.chain(points).find(|epoch| *epoch as usize >= epochs) {
+            Some(epoch) => Err(format!("run {run} has an epoch {epoch}, the study has {epochs}")),
+            None => Ok(()),
+        }
     }
 }

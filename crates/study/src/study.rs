@@ -119,7 +119,11 @@ impl Study {
     }
 
     fn one(&self, run: u32, engine: Engine<'_>) -> Result<Outcome, StudyError> {
-        if let Some(kept) = engine.journal.map(|journal| journal.read(run)).transpose()?.flatten() {
+        if let Some(journal) = engine.journal
+            && let Some(kept) = journal.read(run)?
+        {
+            let fits = kept.fits(run, self.spec.filters.len(), self.spec.epochs());
+            fits.map_err(|problem| journal.damaged(problem))?;
             return Ok(kept);
         }
         let mut whole = Outcome::begun(run);

@@ -164,8 +164,12 @@ pub(crate) fn receive<T: for<'de> Deserialize<'de>>(input: &mut impl Read) -> io
     }
     let mut kind = [0];
     input.read_exact(&mut kind)?;
-    let mut bytes = vec![0; (u32::from_le_bytes(length) as usize).saturating_sub(1)];
-    input.read_exact(&mut bytes)?;
+    // As much memory as bytes come, whatever length is claimed.
+    let length = u64::from(u32::from_le_bytes(length)).saturating_sub(1);
+    let mut bytes = Vec::new();
+    if input.take(length).read_to_end(&mut bytes)? as u64 != length {
+        return Err(io::ErrorKind::UnexpectedEof.into());
+    }
     if kind == [RUN] {
         return Ok(Some(Message::Run(bytes)));
     }

@@ -1,7 +1,6 @@
 //! At what laws are tried, and what they are held against.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -90,7 +89,7 @@ impl Levels {
         let Some(path) = path else {
             return Self::parse("the project's own levels", OWN);
         };
-        let text = fs::read_to_string(path).map_err(|source| HarnessError::Read {
+        let text = interface::text::read(path).map_err(|source| HarnessError::Read {
             path: path.to_owned(),
             source,
         })?;

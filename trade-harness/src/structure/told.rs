@@ -11,6 +11,7 @@ use study::{Assignment, FilterChoice, ForeignFilter, Mapping, NAV, OwnFmus, Plan
 use super::values::{Values, values};
 use super::wiring::{Part, Problem, Role, parts};
 use crate::HarnessError;
+use crate::digest::of_bytes;
 use crate::output::write_whole;
 
 /// What a structure says of a study.
@@ -82,15 +83,23 @@ struct Unpacked {
     with_mission: bool,
 }
 
+/// Longest name of a file or filter: systems have no longer names of files than 255 bytes.
+const LONGEST: usize = 100;
+
 /// The name of an element as part of the name of a file or filter; elements may be called anything.
 fn plain(name: &str) -> String {
     let allowed = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    name.chars().map(|c| if allowed(c) { c } else { '_' }).collect()
+    name.chars()
+        .map(|c| if allowed(c) { c } else { '_' })
+        .take(LONGEST)
+        .collect()
 }
 
 /// Puts the FMUs into a folder, under names that tell them apart.
 fn unpack(package: &mut Package, flat: &Flat, folder: &Path) -> Result<Vec<Unpacked>, HarnessError> {
-    let mut contents: Vec<Vec<u8>> = Vec::new();
+    let mut digests: Vec<String> = Vec::new();
+    // Components of one source: the first of them stands for all, and its file is read once.
+    let mut sources: BTreeMap<&str, usize> = BTreeMap::new();
     let mut fmus: Vec<Unpacked> = Vec::new();
     for component in &flat.components {
         let by = format!("component '{}'", component.name);
@@ -101,9 +110,22 @@ fn unpack(package: &mut Package, flat: &Flat, folder: &Path) -> Result<Vec<Unpac
                 problem: format!("is of type {}; a study takes FMUs, {FMU}", component.media_type),
             });
         }
-        let bytes = package.source(&by, &component.source)?;
         let here = fmus.len();
-        let same_as = contents.iter().position(|other| *other == bytes).unwrap_or(here);
+        if let Some(first) = sources.get(component.source.as_str()).map(|first| &fmus[*first]) {
+            let again = Unpacked {
+                path: first.path.clone(),
+                fmu: Fmu::open(&first.path)?,
+                same_as: first.same_as,
+                with_mission: first.with_mission,
+            };
+            digests.push(digests[again.same_as].clone());
+            fmus.push(again);
+            continue;
+        }
+        sources.insert(&component.source, here);
+        let bytes = package.source(&by, &component.source)?;
+        let digest = of_bytes(&bytes);
+        let same_as = digests.iter().position(|other| *other == digest).unwrap_or(here);
         let path = match fmus.get(same_as) {
             Some(first) => first.path.clone(),
             None => folder.join(format!("{here}-{}.fmu", plain(&component.name))),
@@ -114,7 +136,7 @@ fn unpack(package: &mut Package, flat: &Flat, folder: &Path) -> Result<Vec<Unpac
         let fmu = Fmu::open(&path)?;
         let with_mission = zip::ZipArchive::new(std::io::Cursor::new(&bytes))
             .is_ok_and(|archive| archive.index_for_name(&format!("resources/{PACKED}")).is_some());
-        contents.push(bytes);
+        digests.push(digest);
         fmus.push(Unpacked {
             path,
             fmu,

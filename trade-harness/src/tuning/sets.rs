@@ -1,6 +1,5 @@
 //! `tuned.json`: what a search found, in a form that `--tuned` reads back.
 
-use std::fs;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -40,7 +39,7 @@ impl TunedFile {
     /// # Errors
     /// [`HarnessError::Read`], [`HarnessError::NotTuned`].
     pub fn read(path: &Path) -> Result<Self, HarnessError> {
-        let text = fs::read_to_string(path).map_err(|source| HarnessError::Read {
+        let text = interface::text::read(path).map_err(|source| HarnessError::Read {
             path: path.to_owned(),
             source,
         })?;
@@ -103,7 +102,7 @@ mod tests {
                 feasible: true,
             }],
         };
-        fs::write(&path, file.render().unwrap()).unwrap();
+        std::fs::write(&path, file.render().unwrap()).unwrap();
         assert_eq!(TunedFile::read(&path).unwrap(), file);
         assert_eq!(file.sets[0].name, "p-tuned");
         assert_eq!(TunedSet::name_for(PAPER), "tuned");
@@ -114,7 +113,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("tuned.json");
         assert!(matches!(TunedFile::read(&path), Err(HarnessError::Read { .. })));
-        fs::write(&path, "{\"sets\": 3}").unwrap();
+        std::fs::write(&path, "{\"sets\": 3}").unwrap();
         let error = TunedFile::read(&path).unwrap_err();
         assert!(matches!(error, HarnessError::NotTuned { .. }), "{error}");
         assert!(error.to_string().contains("tuned.json"), "{error}");

@@ -22,6 +22,8 @@
 //!   numbers, and is otherwise not looked at.
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 use super::coefficients::Coefficients;
@@ -44,7 +46,7 @@ impl Coefficients {
     /// When the file cannot be read, is malformed or incomplete, or has less than `extent` asks for.
     pub fn read(path: &Path, extent: Extent) -> Result<Self, FieldError> {
         let file = path.display().to_string();
-        match std::fs::read_to_string(path) {
+        match text(path) {
             Ok(text) => Self::parse(&text, &file, extent),
             Err(error) => Err(FieldError::Read {
                 file,
@@ -90,6 +92,19 @@ impl Coefficients {
             cause: Box::new(cause),
         })
     }
+}
+
+/// Most bytes of a file: twice those of the largest field there is, EGM2008.
+const LIMIT: u64 = 512 << 20;
+
+fn text(path: &Path) -> io::Result<String> {
+    let mut text = String::new();
+    File::open(path)?.take(LIMIT + 1).read_to_string(&mut text)?;
+    if text.len() as u64 > LIMIT {
+        let what = format!("it has more than {LIMIT} bytes, and is no coefficient file");
+        return Err(io::Error::new(io::ErrorKind::InvalidData, what));
+    }
+    Ok(text)
 }
 
 /// The field asked for, from the terms read.

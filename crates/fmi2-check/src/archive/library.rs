@@ -81,17 +81,22 @@ pub(super) fn check(
     }
 }
 
+/// Most libraries in a universal one: there are fewer machines.
+const PARTS: usize = 16;
+
 /// The library, or each of those that a universal one holds.
 fn parts(bytes: &[u8]) -> object::Result<Vec<File<'_>>> {
     match FileKind::parse(bytes)? {
         FileKind::MachOFat32 => MachOFatFile32::parse(bytes)?
             .arches()
             .iter()
+            .take(PARTS)
             .map(|arch| File::parse(arch.data(bytes)?))
             .collect(),
         FileKind::MachOFat64 => MachOFatFile64::parse(bytes)?
             .arches()
             .iter()
+            .take(PARTS)
             .map(|arch| File::parse(arch.data(bytes)?))
             .collect(),
         _ => Ok(vec![File::parse(bytes)?]),

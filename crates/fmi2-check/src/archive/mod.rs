@@ -8,6 +8,7 @@ use std::fs::{self, File};
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
+use fmi2_import::limits::{self, Budget, Stopped};
 use zip::{CompressionMethod, ZipArchive};
 
 use crate::error::CheckError;
@@ -18,15 +19,15 @@ use crate::xml::tree::Node;
 /// Where the description stands.
 pub(crate) const DESCRIPTION: &str = "modelDescription.xml";
 
-/// Largest file that is read, bytes.
+/// Largest file that is looked into, bytes; a library may be as large.
 const FILE_LIMIT: u64 = 1 << 30;
-/// Most bytes that an FMU may unpack to.
-const UNPACK_LIMIT: u64 = 4 << 30;
 
 /// An opened archive.
 #[derive(Debug)]
 pub(crate) struct Archive {
     path: PathBuf,
+    /// Its size, bytes.
+    size: u64,
     zip: ZipArchive<BufReader<File>>,
     /// Names of all entries that are files, in the order of the archive, as they are written.
     names: Vec<String>,
@@ -45,7 +46,8 @@ impl Archive {
             source,
         };
         let mut file = File::open(path).map_err(read)?;
-        if file.metadata().map_err(read)?.is_dir() {
+        let facts = file.metadata().map_err(read)?;
+        if facts.is_dir() {
             return Err(read(io::Error::from(io::ErrorKind::IsADirectory)));
         }
         let directory = directory::names(&mut file).map_err(read)?;
@@ -55,12 +57,14 @@ impl Archive {
         })?;
         let mut archive = Self {
             path: path.to_owned(),
+            size: facts.len(),
             zip,
             names: Vec::new(),
             safe: true,
         };
         archive.entries(findings);
         let names = directory.unwrap_or_else(|| archive.names.clone());
+        archive.safe &= !archive.zip.has_duplicate_names();
         directory::check(&names, findings);
         if archive.contains(DESCRIPTION) {
             if names.first().is_some_and(|first| first != DESCRIPTION) {
@@ -78,7 +82,25 @@ impl Archive {
         Ok(archive)
     }
 
+    /// Finds what is wrong with an entry, or with all of them, and that nothing is unpacked therefore.
+    fn broken(&mut self, findings: &mut Findings, entry: impl Into<String>, what: impl Into<String>) {
+        findings.add(&rules::ENTRY, entry, what);
+        self.safe = false;
+    }
+
     fn entries(&mut self, findings: &mut Findings) {
+        if self.zip.len() > limits::ENTRIES {
+            let what = format!("there are {}, more than {}", self.zip.len(), limits::ENTRIES);
+            return self.broken(findings, "all entries", what);
+        }
+        match self.zip.has_overlapping_files() {
+            Ok(false) => (),
+            Ok(true) => {
+                let what = "two of them share their bytes, as in a zip bomb";
+                return self.broken(findings, "all entries", what);
+            }
+            Err(error) => return self.broken(findings, "all entries", error.to_string()),
+        }
         for place in 0..self.zip.len() {
             let entry = match self.zip.by_index_raw(place) {
                 Ok(entry) => entry,
@@ -114,10 +136,19 @@ impl Archive {
             }
         }
         // Reading to the end proves lengths and check sums.
+        let mut budget = Budget::of(self.size);
         for name in self.names.clone() {
-            if let Err(error) = self.zip.by_name(&name).map_err(io::Error::from).and_then(drain) {
-                findings.add(&rules::ENTRY, &name, error.to_string());
-                self.safe = false;
+            let copied = match self.zip.by_name(&name) {
+                Ok(entry) => budget.copy(entry, &mut io::sink()),
+                Err(error) => Err(Stopped::Read(error.into())),
+            };
+            match copied {
+                Ok(()) => (),
+                Err(Stopped::Full) => {
+                    let what = format!("the archive unpacks to more than {} bytes", budget.limit());
+                    return self.broken(findings, name, what);
+                }
+                Err(Stopped::Read(error) | Stopped::Write(error)) => self.broken(findings, name, error.to_string()),
             }
         }
     }
@@ -143,12 +174,30 @@ impl Archive {
         self.names.iter().filter_map(move |name| name.strip_prefix(folder))
     }
 
-    /// Contents of a file; nothing where it cannot be read, which has been found when it was opened.
+    /// Contents of a file; nothing where it cannot be read, which has been found when it was opened, or is too large.
     pub(crate) fn read(&mut self, name: &str) -> Option<Vec<u8>> {
+        self.read_limited(name, FILE_LIMIT)
+    }
+
+    /// The description; one that is too large is a finding.
+    pub(crate) fn description(&mut self, findings: &mut Findings) -> Option<Vec<u8>> {
+        let bytes = self.read_limited(DESCRIPTION, limits::DESCRIPTION);
+        let declared = self.zip.by_name(DESCRIPTION).map(|entry| entry.size());
+        if bytes.is_none() && declared.is_ok_and(|size| size > limits::DESCRIPTION) {
+            let what = format!(
+                "it is larger than {} bytes, and nothing in it was checked",
+                limits::DESCRIPTION
+            );
+            self.broken(findings, DESCRIPTION, what);
+        }
+        bytes
+    }
+
+    fn read_limited(&mut self, name: &str, limit: u64) -> Option<Vec<u8>> {
         let mut bytes = Vec::new();
         let entry = self.zip.by_name(name).ok()?;
-        entry.take(FILE_LIMIT).read_to_end(&mut bytes).ok()?;
-        Some(bytes)
+        entry.take(limit + 1).read_to_end(&mut bytes).ok()?;
+        (bytes.len() as u64 <= limit).then_some(bytes)
     }
 
     /// Unpacks what a library may look at into a folder; not where an entry is not to be trusted.
@@ -167,7 +216,7 @@ impl Archive {
             target: target.to_owned(),
             source,
         };
-        let mut left = UNPACK_LIMIT;
+        let mut budget = Budget::of(self.size);
         let resources = folder.join("resources");
         fs::create_dir_all(&resources).map_err(|e| failed(&resources, e))?;
         for name in self.names.clone() {
@@ -182,14 +231,11 @@ impl Archive {
             fs::create_dir_all(parent).map_err(|e| failed(parent, e))?;
             let entry = self.zip.by_name(&name).map_err(|e| failed(&target, e.into()))?;
             let mut file = File::create(&target).map_err(|e| failed(&target, e))?;
-            let written = io::copy(&mut entry.take(left + 1), &mut file).map_err(|e| failed(&target, e))?;
-            let full = || failed(folder, io::Error::from(io::ErrorKind::FileTooLarge));
-            left = left.checked_sub(written).ok_or_else(full)?;
+            budget.copy(entry, &mut file).map_err(|stopped| match stopped {
+                Stopped::Read(error) | Stopped::Write(error) => failed(&target, error),
+                Stopped::Full => failed(folder, io::Error::from(io::ErrorKind::FileTooLarge)),
+            })?;
         }
         Ok(true)
     }
-}
-
-fn drain(entry: impl Read) -> io::Result<()> {
-    io::copy(&mut entry.take(FILE_LIMIT), &mut io::sink()).map(drop)
 }

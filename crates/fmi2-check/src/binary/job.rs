@@ -113,7 +113,7 @@ fn variables(view: &View<'_>) -> Vec<Variable> {
         start: v.get("start").map(str::to_owned),
         min: view.attribute(v, "min").and_then(double),
         max: view.attribute(v, "max").and_then(double),
-        items: view.items(v),
+        items: view.items(v).map(|items| items.iter().copied().collect()),
     })
     .collect()
 }

@@ -154,16 +154,7 @@ fn derivative(view: &View<'_>, variable: &Scalar<'_>, findings: &mut Findings) {
             );
         }
     }
-    let is_state = || {
-        let derivatives = view
-            .variables
-            .iter()
-            .filter_map(|v| v.get("derivative").and_then(unsigned));
-        derivatives
-            .filter_map(|index| view.at(index))
-            .any(|s| s.index == variable.index)
-    };
-    if variable.get("reinit").and_then(boolean).is_some() && !is_state() {
+    if variable.get("reinit").and_then(boolean).is_some() && !view.is_state(variable) {
         findings.at(
             inner.line,
             &rules::REINIT,

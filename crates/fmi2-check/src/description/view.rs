@@ -72,6 +72,10 @@ pub(crate) struct View<'a> {
     /// Elements of types by name.
     pub(crate) types: BTreeMap<&'a str, &'a Node>,
     pub(crate) variables: Vec<Scalar<'a>>,
+    /// Values of the items of each enumeration, by the name of its type.
+    items: BTreeMap<&'a str, BTreeSet<i32>>,
+    /// Indices of variables that a derivative belongs to.
+    states: BTreeSet<u32>,
 }
 
 impl<'a> View<'a> {
@@ -85,12 +89,28 @@ impl<'a> View<'a> {
             Some((simple.get("name")?, kind))
         });
         let variables = root.inside("ModelVariables", "ScalarVariable").enumerate();
+        let variables: Vec<Scalar<'_>> = variables.map(|(place, node)| Scalar::new(node, place + 1)).collect();
+        let types: BTreeMap<&str, &Node> = types.collect();
+        let values = |node: &'a Node| node.named("Item").filter_map(|item| int(item.get("value")?));
         Self {
             root,
             units: units.collect(),
-            types: types.collect(),
-            variables: variables.map(|(place, node)| Scalar::new(node, place + 1)).collect(),
+            items: types
+                .iter()
+                .map(|(name, node)| (*name, values(node).collect()))
+                .collect(),
+            types,
+            states: variables
+                .iter()
+                .filter_map(|v| v.get("derivative").and_then(unsigned))
+                .collect(),
+            variables,
         }
+    }
+
+    /// Whether a derivative belongs to a variable.
+    pub(crate) fn is_state(&self, variable: &Scalar<'a>) -> bool {
+        u32::try_from(variable.index).is_ok_and(|index| self.states.contains(&index))
     }
 
     /// The element of the declared type of a variable.
@@ -104,16 +124,10 @@ impl<'a> View<'a> {
     }
 
     /// Values of the items of an enumeration.
-    pub(crate) fn items(&self, variable: &Scalar<'a>) -> Option<Vec<i32>> {
-        let declared = self
-            .type_of(variable)
-            .filter(|_| variable.kind == Some(Kind::Enumeration))?;
-        Some(
-            declared
-                .named("Item")
-                .filter_map(|item| int(item.get("value")?))
-                .collect(),
-        )
+    pub(crate) fn items(&self, variable: &Scalar<'a>) -> Option<&BTreeSet<i32>> {
+        self.items
+            .get(variable.get("declaredType")?)
+            .filter(|_| variable.kind == Some(Kind::Enumeration))
     }
 
     /// The variable of an index as ModelStructure counts.

@@ -1,5 +1,7 @@
 //! The document as a tree in which every element knows its line and what to call it.
 
+use std::collections::BTreeMap;
+
 use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};
 
@@ -8,6 +10,27 @@ use crate::rules::xml as rules;
 
 /// Elements inside each other, at most; the schema needs six and annotations are anybody's.
 const DEPTH: usize = 200;
+
+/// Elements of a document, at most: three for each variable, and a million of those.
+const ELEMENTS: usize = 3_000_000;
+
+/// Longest attribute, bytes, but for those of [`LONG`] and in annotations. What many variables share is looked at as often.
+const ATTRIBUTE: usize = 4096;
+
+/// Attributes that may be long.
+const LONG: [&str; 4] = ["dependencies", "dependenciesKind", "description", "start"];
+
+/// Bytes of a path, and of one name in it, that findings show.
+const SHOWN: [usize; 2] = [400, 100];
+
+/// The beginning of a text.
+fn short(text: &str, length: usize) -> &str {
+    let mut end = length.min(text.len());
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    &text[..end]
+}
 
 /// An element.
 #[derive(Debug, Default)]
@@ -48,18 +71,29 @@ impl Node {
 
     /// Calls it and everything below by paths from the root, whose own name is left out.
     fn call(&mut self, path: String) {
+        let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+        for child in &self.children {
+            *counts.entry(child.name.clone()).or_default() += 1;
+        }
+        let mut seen: BTreeMap<String, usize> = BTreeMap::new();
         for place in 0..self.children.len() {
             let name = self.children[place].name.clone();
             let own = self.children[place].get("name").unwrap_or_default();
+            let own = if self.name == "ModelVariables" {
+                own
+            } else {
+                short(own, SHOWN[1])
+            };
+            let before = seen.entry(name.clone()).or_default();
+            *before += 1;
+            let (before, many) = (*before, counts.get(&name).is_some_and(|count| *count > 1));
             let step = if name == "ScalarVariable" && !own.is_empty() {
                 own.to_owned()
             } else if self.name == "ScalarVariable" {
                 path.clone()
             } else {
-                let before = self.children[..place].iter().filter(|c| c.name == name).count();
-                let many = self.children.iter().filter(|c| c.name == name).count() > 1;
                 let place = match own {
-                    "" if many => format!("[{}]", before + 1),
+                    "" if many => format!("[{before}]"),
                     "" => String::new(),
                     own => format!("[@name='{own}']"),
                 };
@@ -70,7 +104,8 @@ impl Node {
                 };
                 format!("{above}{name}{place}")
             };
-            self.children[place].call(step);
+            let longest = SHOWN[0].max(own.len());
+            self.children[place].call(short(&step, longest).to_owned());
         }
         self.path = if path.is_empty() { self.name.clone() } else { path };
     }
@@ -111,7 +146,7 @@ fn grow(text: &str, findings: &mut Findings) -> Result<Node, Failure> {
     let mut reader = quick_xml::Reader::from_str(text);
     let (mut line, mut counted) = (1, 0);
     let mut open: Vec<Node> = Vec::new();
-    let mut root = None;
+    let (mut root, mut elements) = (None, 0);
     loop {
         // The line on which the event begins.
         let begin = usize::try_from(reader.buffer_position())
@@ -130,6 +165,9 @@ fn grow(text: &str, findings: &mut Findings) -> Result<Node, Failure> {
                     findings.at(line, &rules::ENCODING, "modelDescription.xml", what);
                 }
             }
+            Event::Start(_) | Event::Empty(_) if elements == ELEMENTS => {
+                return Err((line, format!("there are more than {ELEMENTS} elements")));
+            }
             Event::Start(_) | Event::Empty(_) if root.is_some() && open.is_empty() => {
                 return Err((line, "there is a second root element".to_owned()));
             }
@@ -137,9 +175,13 @@ fn grow(text: &str, findings: &mut Findings) -> Result<Node, Failure> {
                 if open.len() == DEPTH {
                     return Err((line, format!("elements lie more than {DEPTH} deep")));
                 }
-                open.push(node(&tag, line)?);
+                elements += 1;
+                open.push(node(&tag, line, annotated(&open))?);
             }
-            Event::Empty(tag) => close(node(&tag, line)?, &mut open, &mut root),
+            Event::Empty(tag) => {
+                elements += 1;
+                close(node(&tag, line, annotated(&open))?, &mut open, &mut root);
+            }
             Event::End(_) => {
                 if let Some(done) = open.pop() {
                     close(done, &mut open, &mut root);
@@ -175,7 +217,12 @@ fn close(done: Node, open: &mut [Node], root: &mut Option<Node>) {
     }
 }
 
-fn node(tag: &BytesStart<'_>, line: usize) -> Result<Node, Failure> {
+/// Whether what comes next stands in an annotation, where anything may.
+fn annotated(open: &[Node]) -> bool {
+    open.iter().any(|node| node.name == "Tool")
+}
+
+fn node(tag: &BytesStart<'_>, line: usize, annotated: bool) -> Result<Node, Failure> {
     let mut node = Node {
         name: tag.name().as_ref().to_owned(),
         line,
@@ -186,8 +233,16 @@ fn node(tag: &BytesStart<'_>, line: usize) -> Result<Node, Failure> {
         let value = attribute
             .normalized_value(XmlVersion::Implicit1_0)
             .map_err(|error| (line, format!("in {}: {error}", node.name)))?;
-        node.attributes
-            .push((attribute.key.as_ref().to_owned(), value.into_owned()));
+        let key: &str = attribute.key.as_ref();
+        if value.len() > ATTRIBUTE && !annotated && !LONG.contains(&key) {
+            let what = format!(
+                "{} of {} is longer than {ATTRIBUTE} bytes",
+                short(key, SHOWN[1]),
+                node.name
+            );
+            return Err((line, what));
+        }
+        node.attributes.push((key.to_owned(), value.into_owned()));
     }
     Ok(node)
 }

@@ -9,6 +9,10 @@ use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE};
 /// # Errors
 /// Where and why the bytes are none.
 pub(super) fn decode(xml: &[u8]) -> Result<Cow<'_, str>, (usize, String)> {
+    // Its byte order mark begins as that of UTF-16.
+    if let [b'<' | 0xff, 0 | 0xfe, 0, 0, ..] | [0, 0, 0 | 0xfe, b'<' | 0xff, ..] = xml {
+        return Err((0, "the file is in UTF-32: save it as UTF-8".to_owned()));
+    }
     let (encoding, mark) = match Encoding::for_bom(xml) {
         Some(found) => found,
         None => (declared(xml)?, 0),

@@ -49,6 +49,9 @@ impl ModelDescription {
     }
 }
 
+/// Elements inside each other, at most; the schema needs six and annotations are anybody's.
+const DEPTH: usize = 200;
+
 fn malformed(path: &Path, xml: &[u8], offset: usize, reason: String) -> ImportError {
     let before = &xml[..offset.min(xml.len())];
     let line_start = before.iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
@@ -79,6 +82,10 @@ fn walk(xml: &str, path: &Path) -> Result<Vec<VendorAnnotation>, ImportError> {
             Event::Eof => {
                 let reason = format!("the file ends with {} element(s) open", open.len());
                 return Err(malformed(path, xml.as_bytes(), xml.len(), reason));
+            }
+            Event::Start(_) if open.len() == DEPTH => {
+                let reason = format!("elements lie more than {DEPTH} deep");
+                return Err(malformed(path, xml.as_bytes(), before, reason));
             }
             Event::Start(tag) => {
                 open.push(tag.name().as_ref().to_owned());

@@ -31,12 +31,21 @@ fn of_no_mission(path: &Path, source: &std::io::Error) -> String {
     )
 }
 
+/// Longest name, bytes, that a nearer one is looked for; of longer ones the beginning is shown.
+const LONGEST_SLIP: usize = 100;
+
+/// Most findings that are told of.
+const TOLD: usize = 100;
+
 /// The end of a message about a name that does not exist: the nearest one, if one is near, and all there are.
 ///
 /// * `all`: how these are introduced.
 fn one_of(given: &str, known: &[&str], all: &str) -> String {
+    // Of a text that nobody has typed no slip can be told; it would take memory by its length.
+    let typed = given.len() <= LONGEST_SLIP;
     let nearest = known
         .iter()
+        .filter(|_| typed)
         .map(|name| (strsim::damerau_levenshtein(given, name), *name))
         // A name without its unit is a likely slip.
         .min_by_key(|(distance, name)| if name.starts_with(given) { 0 } else { *distance });
@@ -62,7 +71,7 @@ impl Document {
                 .parent()
                 .map(Path::to_owned)
                 .unwrap_or_default();
-            Ok::<_, std::io::Error>((std::fs::read_to_string(path)?, folder))
+            Ok::<_, std::io::Error>((crate::text::read(path)?, folder))
         };
         let (text, folder) = read(path).map_err(|source| MissionError::Read {
             path: path.display().to_string(),
@@ -205,6 +214,7 @@ impl Document {
         Err(MissionError::Invalid(
             findings
                 .into_iter()
+                .take(TOLD)
                 .map(|Finding { path, what }| problem(&path, what))
                 .collect(),
         ))
@@ -217,8 +227,10 @@ impl Document {
     }
 
     fn spanned(&self) -> Result<Spanned<&str>, MissionError> {
-        Spanned::parse(self.text.as_str())
-            .map_err(|e| MissionError::Invalid(vec![self.problem(e.span(), e.message().to_owned())]))
+        Spanned::parse(self.text.as_str()).map_err(|e| {
+            let (place, what) = too_deep(&self.text, e.message()).unwrap_or((e.span(), e.message().to_owned()));
+            MissionError::Invalid(vec![self.problem(place, what)])
+        })
     }
 
     fn problem(&self, span: Option<Range<usize>>, what: String) -> Problem {
@@ -250,6 +262,9 @@ impl Problem {
 
 /// What the parser says, and the place of the key that it names.
 fn explained(text: &str, error: &toml::de::Error) -> (Option<Range<usize>>, String) {
+    if let Some(told) = too_deep(text, error.message()) {
+        return told;
+    }
     let what = friendlier(error.message(), text, error.span());
     // A table that is read whole before its kind is known gives its own place for what is wrong inside.
     let named = error
@@ -268,6 +283,20 @@ fn explained(text: &str, error: &toml::de::Error) -> (Option<Range<usize>>, Stri
         inside.unwrap_or(span)
     });
     (place, what)
+}
+
+/// The parser says of a key of too many parts neither where nor how many there may be.
+fn too_deep(text: &str, message: &str) -> Option<(Option<Range<usize>>, String)> {
+    const PARTS: usize = 80;
+    (message == "recursion limit").then(|| {
+        let mut begin = 0;
+        let line = text.split_inclusive('\n').find_map(|line| {
+            let range = begin..begin + line.len();
+            begin = range.end;
+            (line.matches('.').count() >= PARTS).then_some(range)
+        });
+        (line, format!("a key has {PARTS} parts or more"))
+    })
 }
 
 /// Line and column, from 1, of a byte.
@@ -430,7 +459,11 @@ fn friendlier(message: &str, text: &str, span: Option<Range<usize>>) -> String {
         } else {
             "unknown value"
         };
-        return format!("{what} `{given}`{}", one_of(given, known, "allowed here"));
+        let mut shown: String = given.chars().take(LONGEST_SLIP).collect();
+        if shown.len() < given.len() {
+            shown.push_str("...");
+        }
+        return format!("{what} `{shown}`{}", one_of(given, known, "allowed here"));
     }
     let given = span.and_then(|span| text.get(span)).unwrap_or_default();
     if message.starts_with("invalid type") && !given.is_empty() && given.len() < 60 && !given.contains('\n') {
