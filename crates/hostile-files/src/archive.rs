@@ -1,6 +1,7 @@
 //! FMUs as archives: opened, checked, unpacked. Nothing is loaded.
 
 use crate::cage::cage;
+use crate::zips::DESCRIPTION;
 use crate::{Kind, told, zips};
 
 pub(crate) const KIND: Kind = Kind {
@@ -8,15 +9,6 @@ pub(crate) const KIND: Kind = Kind {
     feed,
     seeds,
 };
-
-/// A description that any master takes.
-pub(crate) const DESCRIPTION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
-<fmiModelDescription fmiVersion="2.0" modelName="tank" guid="{tank-1}">
-  <CoSimulation modelIdentifier="tank"/>
-  <ModelVariables><ScalarVariable name="level" valueReference="1" causality="output"><Real/></ScalarVariable></ModelVariables>
-  <ModelStructure><Outputs><Unknown index="1"/></Outputs></ModelStructure>
-</fmiModelDescription>
-"#;
 
 fn feed(bytes: &[u8]) {
     let cage = cage();

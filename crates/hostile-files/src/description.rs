@@ -5,8 +5,8 @@ use std::path::Path;
 use fmi2_import::ModelDescription;
 use interface::annotation::Filters;
 
-use crate::archive::DESCRIPTION;
 use crate::cage::cage;
+use crate::zips::DESCRIPTION;
 use crate::{Kind, told, zips};
 
 pub(crate) const KIND: Kind = Kind {

@@ -5,7 +5,14 @@ use std::io::{Cursor, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use crate::archive::DESCRIPTION;
+/// A description that any master takes.
+pub(crate) const DESCRIPTION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="2.0" modelName="tank" guid="{tank-1}">
+  <CoSimulation modelIdentifier="tank"/>
+  <ModelVariables><ScalarVariable name="level" valueReference="1" causality="output"><Real/></ScalarVariable></ModelVariables>
+  <ModelStructure><Outputs><Unknown index="1"/></Outputs></ModelStructure>
+</fmiModelDescription>
+"#;
 
 /// An archive of entries that are packed as a tool packs them.
 pub fn deflated(entries: &[(&str, &[u8])]) -> Vec<u8> {

@@ -3,7 +3,7 @@
 //! Readers may refuse as they like; they must not panic, take more memory than a few times the file, write where they should not or
 //! leave anything behind.
 
-#![allow(clippy::print_stdout, reason = "says how many cases there were")]
+#![allow(clippy::print_stdout, reason = "counts, for whoever looks")]
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
