@@ -1,10 +1,6 @@
 //! Archives that nobody should have packed: each is refused with the reason, nothing is written outside and nothing left behind.
 
-<<<<<<< HEAD
-#![allow(clippy::print_stdout, reason = "says how many cases there were")]
-=======
 #![allow(clippy::print_stdout, reason = "counts, for whoever looks")]
->>>>>>> files
 #![allow(
     clippy::unwrap_used,
     clippy::panic,

@@ -60,7 +60,8 @@ impl Flow {
         let (g, w) = (by_r * (t * t), by_v * t);
         let turns = w != Matrix3::zeros();
         let size = g.abs().sum().sqrt() + w.abs().sum();
-        if size.is_nan() || size > LARGE {
+        // A rate that grows is none of ours, but a changed state may hold one.
+        if size.is_nan() || size > LARGE || k < 0.0 {
             return Self::scaled(by_r, by_v, k, t);
         }
         // u_n = b_n t^n / n! of B = sum of u_n, with b_1 = I and b_(n+1) = b_n W + b_(n-1) G.
@@ -164,7 +165,8 @@ fn weights(z: f64, last: usize) -> [f64; TERMS + 2] {
     }
     let mut term = 1.0 / (last + 1) as f64;
     let mut over = (last + 2) as f64;
-    while term.abs() > 1e-18 {
+    // Twenty terms are enough for any z up to 1.
+    for _ in 0..20 {
         all[last] += term;
         term *= -z / over;
         over += 1.0;
@@ -402,6 +404,22 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    /// What no mission states and a changed state may hold comes to an end.
+    #[test]
+    fn senseless_rates_end() {
+        let (target, _) = fields()[0];
+        for (k, finite) in [
+            (-1e-3, true),
+            (1e300, true),
+            (-1e300, false),
+            (f64::NAN, false),
+            (f64::INFINITY, false),
+        ] {
+            let flow = Flow::new(&target.0, &target.1, k, 1.0).nine(true, 1.0);
+            assert_eq!(flow.iter().all(|v| v.is_finite()), finite, "{k}");
         }
     }
 
