@@ -10,6 +10,11 @@
 #include <string.h>
 #include <unistd.h>
 
+#ifdef SETS_SIGNAL
+/* Of its own: in a shell's background the signal is ignored from the beginning. */
+static void deaf(int signal) { (void)signal; }
+#endif
+
 enum { OK, WARNING, DISCARD, ERROR, FATAL };
 enum { MADE = 1, SETTING = 2, RUNNING = 4, ENDED = 8 };
 enum { TIME, GAIN, LIMIT, DOUBLE_GAIN, PI, U1, U2, X, DER_X, Y, Z, REALS };
@@ -139,7 +144,7 @@ void *fmi2Instantiate(const char *name, int type, const char *guid, const char *
   setlocale(LC_ALL, "");
 #endif
 #ifdef SETS_SIGNAL
-  signal(SIGINT, SIG_IGN);
+  signal(SIGINT, deaf);
 #endif
 #ifdef CHATTY
   say(t, OK, "logAll", "made");
