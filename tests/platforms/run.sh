@@ -18,6 +18,9 @@ cargo build --release --quiet --package trade-harness
 harness=$PWD/target/release/trade-harness
 # Before another compiler is taken: this machine's own library is one of those compared.
 "$harness" pack --quiet --out "$work/native" >/dev/null
+# The other folder is no repository that could say when the commit was made.
+SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
+export SOURCE_DATE_EPOCH
 # Both folders use one, so that only what is ours is compiled twice.
 export CARGO_TARGET_DIR="$work/cargo"
 pack() { "$harness" pack --quiet "$@" >/dev/null; }

@@ -267,7 +267,7 @@ fn build_all(platforms: &BTreeSet<Platform>, workspace: &Path, quiet: bool) -> R
         guids: BTreeMap::new(),
         sources: linked::Sources::new(),
     };
-    for recipe in recipes(platforms)? {
+    for recipe in recipes(platforms, workspace)? {
         all.platforms.extend(recipe.built());
         let mut parts: BTreeMap<String, Vec<Vec<u8>>> = BTreeMap::new();
         for call in &recipe.calls {

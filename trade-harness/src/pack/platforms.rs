@@ -199,7 +199,7 @@ pub(crate) struct Recipe {
 ///
 /// # Errors
 /// [`HarnessError::Platforms`] says everything that is missing for any of them.
-pub(crate) fn recipes(platforms: &BTreeSet<Platform>) -> Result<Vec<Recipe>, HarnessError> {
+pub(crate) fn recipes(platforms: &BTreeSet<Platform>, workspace: &Path) -> Result<Vec<Recipe>, HarnessError> {
     if platforms.is_empty() {
         return Ok(vec![Recipe {
             folder: PLATFORM,
@@ -213,7 +213,7 @@ pub(crate) fn recipes(platforms: &BTreeSet<Platform>) -> Result<Vec<Recipe>, Har
             }],
         }]);
     }
-    let compiler = Compiler::here();
+    let compiler = Compiler::here(workspace);
     let mut missing = BTreeMap::<String, BTreeSet<&str>>::new();
     let recipes = platforms
         .iter()
@@ -268,6 +268,8 @@ fn cargo() -> String {
 /// The compiler that cargo will call.
 struct Compiler {
     sysroot: PathBuf,
+    /// What is built.
+    workspace: PathBuf,
 }
 
 impl Recipe {
@@ -282,16 +284,24 @@ impl Recipe {
 }
 
 impl Compiler {
-    fn here() -> Self {
+    fn here(workspace: &Path) -> Self {
         let program = env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
         Self {
             sysroot: answer(&program, &["--print", "sysroot"]).unwrap_or_default().into(),
+            workspace: workspace.canonicalize().unwrap_or_else(|_| workspace.to_owned()),
         }
     }
 
     /// The standard library's sources.
     fn sources(&self) -> PathBuf {
         self.sysroot.join("lib/rustlib/src/rust")
+    }
+
+    /// The same relative to the workspace, where they lie in it.
+    fn sources_inside(&self) -> Option<PathBuf> {
+        let sources = self.sources();
+        let sources = sources.canonicalize().unwrap_or(sources);
+        sources.strip_prefix(&self.workspace).ok().map(Path::to_owned)
     }
 
     /// * `lacks`: told each thing that is not here.
@@ -360,6 +370,10 @@ impl Compiler {
             }
         }
         remap(&self.sources(), "rust");
+        // Cargo names what lies in the workspace relative to it.
+        if let Some(inside) = self.sources_inside() {
+            remap(&inside, "rust");
+        }
         if target.contains("apple") {
             // By the linker: the compiler would call a tool that not every installation has.
             flags.extend(["-Cstrip=none", "-Clink-arg=-Wl,-S", "-Clink-arg=-Wl,-x"].map(str::to_owned));
@@ -405,6 +419,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let compiler = Compiler {
             sysroot: folder.path().to_owned(),
+            workspace: PathBuf::new(),
         };
         let target = Target {
             names: &["one-target", "another-target"],
@@ -438,6 +453,25 @@ mod tests {
         let (call, lacks) = told(&compiler);
         assert!(lacks.is_empty(), "{lacks:?}");
         assert_eq!(call.arguments, ["build", "--release", "--target=another-target"]);
+    }
+
+    #[test]
+    fn sources_of_the_standard_library_have_one_name_wherever_they_lie() {
+        let flags = |workspace: &str| {
+            let compiler = Compiler {
+                sysroot: "/w/target/rust".into(),
+                workspace: workspace.into(),
+            };
+            let flags = compiler.flags("x86_64-unknown-linux-gnu");
+            flags
+                .into_iter()
+                .filter(|flag| flag.ends_with("=rust"))
+                .collect::<Vec<_>>()
+        };
+        let whole = "--remap-path-prefix=/w/target/rust/lib/rustlib/src/rust=rust";
+        assert_eq!(flags("/other"), [whole]);
+        let relative = "--remap-path-prefix=target/rust/lib/rustlib/src/rust=rust";
+        assert_eq!(flags("/w"), [whole, relative]);
     }
 
     /// The header of a library for macOS, without load commands.
