@@ -153,7 +153,7 @@ int main(int count, char **arguments) {
         unsigned a, b;
         int which, steps;
         double step;
-        if (!strcmp(word, "guid") && fscanf(plan, "%u %79s", &a, name) == 2) {
+        if (!strcmp(word, "guid") && fscanf(plan, "%u %63s", &a, name) == 2) {
             strcpy(f[a].guid, name);
         } else if (!strcmp(word, "resources") && fscanf(plan, "%1023s", resources) == 1) {
         } else if (!strcmp(word, "mission_file") && fscanf(plan, "%u %u", &a, &b) == 2) {

@@ -32,9 +32,12 @@ def said(*command):
 
 
 def check_exports(library, exports):
-    fmi = {name for name in exports if name.startswith("fmi2")}
-    if len(fmi) < 30:
-        fault(library, f"exports {len(fmi)} functions of FMI only")
+    fmi = set()
+    for version in "fmi2", "fmi3":
+        of_version = {name for name in exports if name.startswith(version)}
+        fmi |= of_version
+        if len(of_version) < 30:
+            fault(library, f"exports {len(of_version)} functions of {version} only")
     if others := sorted(set(exports) - fmi):
         fault(library, f"exports {', '.join(others)}")
 
@@ -126,7 +129,7 @@ def mach_o(library, data):
     if not struct.unpack_from("<I", data, 24)[0] & 0x80:
         fault(library, "has one name space with its host")
     # Zig's linker exports every function that is not hidden, Rust's own names too.
-    check_exports(library, [name for name in exports if name.startswith("fmi2")])
+    check_exports(library, [name for name in exports if name.startswith(("fmi2", "fmi3"))])
     check_imports(library, imports)
     if debugging:
         fault(library, f"holds {debugging} symbols for debuggers")
