@@ -23,6 +23,8 @@ SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 export SOURCE_DATE_EPOCH
 # Both folders use one, so that only what is ours is compiled twice.
 export CARGO_TARGET_DIR="$work/cargo"
+# Cargo takes objects for fresh that were made with other names for paths.
+rm -rf "$work/cargo"
 pack() { "$harness" pack --quiet "$@" >/dev/null; }
 
 if [ -z "${RUSTC:-}" ] && ! [ -d "$(rustc --print sysroot)/lib/rustlib/aarch64-apple-darwin" ]; then
