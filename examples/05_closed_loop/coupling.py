@@ -9,7 +9,7 @@ from fmpy.fmi2 import FMU2Slave
 class Slave:
     """An FMU with its variables by name."""
 
-    library = FMU2Slave
+    slave = FMU2Slave
     values = {"Boolean": lambda text: text == "true", "String": str, "Integer": int, "Real": float}
 
     def __init__(self, path, name):
@@ -17,7 +17,7 @@ class Slave:
         self.description = read_model_description(path)
         self.variables = {v.name: v for v in self.description.modelVariables}
         self.folder = extract(path)
-        self.fmu = self.library(
+        self.fmu = self.slave(
             guid=self.description.guid,
             unzipDirectory=self.folder,
             modelIdentifier=self.description.coSimulation.modelIdentifier,

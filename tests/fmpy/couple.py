@@ -29,7 +29,7 @@ VECTORS = [
 class Slave3(Slave):
     """An FMU of FMI 3.0 with its variables by name, of which a vector or matrix is one, handed over whole."""
 
-    library = FMU3Slave
+    slave = FMU3Slave
     values = {**Slave.values, "Int32": int, "Float64": float}
 
     def _accessor(self, verb, name):

@@ -85,12 +85,12 @@ fn archives() -> Vec<(Change, &'static str, &'static str)> {
     );
     add(
         Box::new(renamed(LIBRARY, "binaries/linux64/libgood.so")),
-        "archive.library",
+        "archive.binary",
         LIBRARY,
     );
     add(
         Box::new(renamed(LIBRARY, "binaries/linux64/good.dll")),
-        "archive.library",
+        "archive.binary",
         LIBRARY,
     );
     add(Box::new(rewritten(LIBRARY, b"#!/bin/sh\n")), "archive.machine", LIBRARY);

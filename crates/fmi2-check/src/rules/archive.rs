@@ -15,7 +15,7 @@ rules! {
     UNKNOWN = "archive.unknown", Note, "2.3", "the root holds nothing but what the standard names", "move it to resources/ or extra/";
     IMPLEMENTATION = "archive.implementation", Error, "2.3", "there are binaries or sources", "add a library under binaries/ or the sources";
     PLATFORM = "archive.platform", Warning, "2.3", "folders under binaries/ have names of the standard (win32, win64, linux32, linux64, darwin32, darwin64)", "rename the folder, or expect only some tools to look there";
-    LIBRARY = "archive.library", Error, "2.3", "each platform has a library MODELIDENTIFIER with the suffix of its system", "name the file after modelIdentifier";
+    LIBRARY = "archive.binary", Error, "2.3", "each platform has a library MODELIDENTIFIER with the suffix of its system", "name the file after modelIdentifier";
     MACHINE = "archive.machine", Error, "2.3", "a library is of the format and machine that its folder says", "move it to its own folder, or build it for this one";
     EXPORT = "archive.export", Error, "2.1.1", "a library exports every function of its interface and of its capabilities", "export the function under its name of the standard";
     EXPORT_OPTIONAL = "archive.export-optional", Warning, "2.1.1", "a library exports functions of capabilities that it does not offer, too", "export a function that returns fmi2Error: some masters look up every name";
