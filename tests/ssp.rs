@@ -31,6 +31,18 @@ fn component<'a>(package: &'a Package, name: &str) -> &'a Component {
     components.find(|component| component.name == name).unwrap()
 }
 
+/// A study of one filter that takes no time.
+const SHORT: [&str; 8] = [
+    "compare",
+    "--filters",
+    "snc",
+    "--runs",
+    "1",
+    "--duration",
+    "400",
+    "--force",
+];
+
 /// What is connected is what the table of ports says that truth offers and a filter reads, with its types and units.
 #[test]
 fn every_sensor_of_the_interface_is_connected() {
@@ -279,19 +291,7 @@ fn a_driver_tells_the_filter_what_it_commands() {
     };
     let run = |how: &[&str]| {
         let out = folder.path().join("out");
-        let study = [
-            "compare",
-            "--filters",
-            "snc",
-            "--runs",
-            "1",
-            "--duration",
-            "400",
-            "--force",
-            "--out",
-            text(&out),
-        ];
-        harness_ok(&[&study[..], how].concat());
+        harness_ok(&[&SHORT[..], &["--out", text(&out)], how].concat());
         let row = read_csv(&out.join("runs.csv")).remove(0);
         assert_eq!((&*row["filter"], &*row["failed"]), ("snc", "0"));
         ["pos_rmse_m", "vel_rmse_m_s", "acc_rmse_m_s2", "nis"].map(|name| row[name].clone())
@@ -391,19 +391,7 @@ fn a_factor_is_a_conversion_only_where_units_are_not_converted() {
         let line = range.replace("/>", &format!(" {how}>{inside}</ssd:Connection>"));
         std::fs::write(folder.path().join("SystemStructure.ssd"), whole.replace(range, &line)).unwrap();
         let out = folder.path().join("out");
-        let study = [
-            "compare",
-            "--ssp",
-            text(folder.path()),
-            "--filters",
-            "snc",
-            "--runs",
-            "1",
-            "--duration",
-            "400",
-            "--force",
-        ];
-        let ended = harness(&[&study[..], &["--out", text(&out)]].concat());
+        let ended = harness(&[&SHORT[..], &["--ssp", text(folder.path()), "--out", text(&out)]].concat());
         match ended.status.code() {
             Some(0) => {
                 assert_ne!(read_csv(&out.join("runs.csv"))[0]["pos_rmse_m"], "");
@@ -441,21 +429,10 @@ fn a_factor_is_a_conversion_only_where_units_are_not_converted() {
 fn mapped_values_are_converted_unless_that_is_suppressed() {
     let folder = tempfile::tempdir().unwrap();
     let whole = unpacked(folder.path());
-    let study = [
-        "compare",
-        "--filters",
-        "snc",
-        "--runs",
-        "1",
-        "--duration",
-        "400",
-        "--force",
-        "--out",
-    ];
     let out = folder.path().join("out");
     let plain = |sigma: &str| {
         let set = format!("fmu-truth.lidar.sigma_range={sigma}");
-        harness_ok(&[&study[..], &[text(&out), "--set", &set]].concat());
+        harness_ok(&[&SHORT[..], &["--out", text(&out), "--set", &set]].concat());
         results(&out)["runs.csv"].clone()
     };
     let mapped = |value: &str, how: &str, inside: &str| {
@@ -471,7 +448,7 @@ fn mapped_values_are_converted_unless_that_is_suppressed() {
         assert!(whole.contains(first));
         let changed = whole.replace(first, &format!("{first}{binding}"));
         std::fs::write(folder.path().join("SystemStructure.ssd"), changed).unwrap();
-        harness_ok(&[&study[..], &[text(&out), "--ssp", text(folder.path())]].concat());
+        harness_ok(&[&SHORT[..], &["--out", text(&out), "--ssp", text(folder.path())]].concat());
         results(&out)["runs.csv"].clone()
     };
     let (quarter, half) = (plain("0.25"), plain("0.5"));

@@ -3,7 +3,7 @@
 use std::ffi::CString;
 
 use fmi2_abi::{functions as f, symbols};
-use fmi2_import::loader::file_uri;
+use fmi2_import::loader::{self, file_uri};
 use fmi2_import::{BaseType, Fmu, LIBRARY_SUFFIX, PLATFORM};
 use tempfile::TempDir;
 
@@ -16,11 +16,8 @@ macro_rules! functions {
 
         impl Functions {
             fn of(library: &libloading::Library) -> Self {
-                fn get<F: Copy>(library: &libloading::Library, symbol: &symbols::Symbol<F>) -> F {
-                    // SAFETY: the library is ours, and the type that of the standard for this name.
-                    unsafe { *library.get::<F>(symbol.name).unwrap() }
-                }
-                Self { $($field: get(library, &symbols::$symbol),)* }
+                // SAFETY: the library is ours, and the types those of the standard for these names.
+                unsafe { Self { $($field: loader::function(library, &symbols::$symbol).unwrap(),)* } }
             }
         }
     };

@@ -14,7 +14,7 @@ use crate::ImportError;
 use crate::archive::Archive;
 use crate::description::CoSimulation;
 use crate::guard::{self, BeforeLoading, Watch};
-use crate::loader::{file_uri, loader_text, open};
+use crate::loader::{file_uri, function, loader_text, open};
 use crate::logger::text;
 use crate::platform::{LIBRARY_SUFFIX, PLATFORM};
 
@@ -216,13 +216,11 @@ struct Symbols<'a> {
 impl Symbols<'_> {
     fn get<F: Copy>(&self, symbol: &Symbol<F>) -> Result<F, ImportError> {
         // SAFETY: `F` is the type that the standard gives to this name; `fmi2GetVersion` guards against other versions.
-        unsafe { self.loaded.get::<F>(symbol.name) }
-            .map(|function| *function)
-            .map_err(|_| ImportError::MissingSymbol {
-                path: self.path.to_owned(),
-                library: self.entry.to_owned(),
-                symbol: symbol.name.to_owned(),
-            })
+        unsafe { function(self.loaded, symbol) }.ok_or_else(|| ImportError::MissingSymbol {
+            path: self.path.to_owned(),
+            library: self.entry.to_owned(),
+            symbol: symbol.name.to_owned(),
+        })
     }
 
     /// Calls one of the two inquiry functions, which share one shape.

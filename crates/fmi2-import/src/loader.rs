@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use fmi2_abi::symbols::Symbol;
 use libloading::Library;
 
 /// Loads a library with all its symbols resolved at once: a missing one is an error here rather than an abort later.
@@ -25,6 +26,15 @@ pub unsafe fn open(file: &Path) -> Result<Library, libloading::Error> {
     use libloading::os::windows::{LOAD_WITH_ALTERED_SEARCH_PATH, Library as Windows};
     // SAFETY: passed on to the caller.
     unsafe { Windows::load_with_flags(file, LOAD_WITH_ALTERED_SEARCH_PATH) }.map(Library::from)
+}
+
+/// A function that an FMU exports, if it does.
+///
+/// # Safety
+/// The library gives the function the type that the standard has for its name.
+pub unsafe fn function<F: Copy>(library: &Library, symbol: &Symbol<F>) -> Option<F> {
+    // SAFETY: as the caller vouches.
+    unsafe { library.get::<F>(symbol.name) }.ok().map(|function| *function)
 }
 
 /// The loader's own words, which `libloading` keeps in the source of its error.

@@ -61,9 +61,9 @@ pub fn carried<const R: usize, const N: usize>(
     (fp, fpf)
 }
 
-/// Sum of columns, each by its factor; held while it gathers.
+/// Sum of columns, each by its factor; held while it gathers. What a matrix by its columns makes of a vector.
 #[inline(always)]
-fn gathered<const R: usize, const N: usize>(columns: &[[f64; R]; N], factor: impl Fn(usize) -> f64) -> [f64; R] {
+pub fn gathered<const R: usize, const N: usize>(columns: &[[f64; R]; N], factor: impl Fn(usize) -> f64) -> [f64; R] {
     let mut sum = [0.0; R];
     for (k, from) in columns.iter().enumerate() {
         let factor = factor(k);

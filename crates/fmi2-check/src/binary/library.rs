@@ -4,18 +4,11 @@ use std::ffi::CString;
 use std::path::Path;
 
 use fmi2_abi::functions as f;
-use fmi2_abi::symbols::{self, Symbol};
+use fmi2_abi::symbols;
 use fmi2_import::loader;
 use libloading::Library as Loaded;
 
 use super::logger::text;
-
-/// # Safety
-/// The library keeps to the C types of the standard.
-unsafe fn get<F: Copy>(library: &Loaded, symbol: &Symbol<F>) -> Option<F> {
-    // SAFETY: as the caller vouches.
-    unsafe { library.get::<F>(symbol.name) }.ok().map(|function| *function)
-}
 
 /// Functions by their name in the standard.
 macro_rules! functions {
@@ -32,7 +25,7 @@ macro_rules! functions {
             unsafe fn of(library: &Loaded) -> Self {
                 Self {
                     // SAFETY: by the contract above, with the type that the standard gives to the name.
-                    $($field: unsafe { get(library, &symbols::$symbol) },)*
+                    $($field: unsafe { loader::function(library, &symbols::$symbol) },)*
                 }
             }
         }
