@@ -106,6 +106,14 @@ fn killed_at_any_moment_a_study_goes_on_to_the_same_bytes() {
     // Once more: it is complete, and stays as it is.
     let said = harness_ok(&[&STUDY[..], &["--resume", "--out", text(&killed)]].concat());
     assert!(said.contains("complete"), "{said}");
+    // Killed while it cleared up after itself, it is complete too, and whoever comes next clears up.
+    std::fs::create_dir(killed.join(".unfinished")).unwrap();
+    std::fs::write(killed.join(".unfinished/leo_venting_nominal.journal"), "").unwrap();
+    let said = harness_ok(&[&STUDY[..], &["--resume", "--out", text(&killed)]].concat());
+    assert!(
+        said.contains("complete") && !killed.join(".unfinished").exists(),
+        "{said}"
+    );
     // Its runs are those of a study with other requirements, but it was not judged by them.
     let other = ["--resume", "--require", "metric = \"pos_rmse_m\", at_most = 5"];
     let refused = harness(&[&STUDY[..], &other, &["--out", text(&killed)]].concat());

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -44,32 +45,15 @@ impl StudyFolder {
     /// # Errors
     /// [`HarnessError::InUse`], [`HarnessError::OtherStudy`], [`HarnessError::Unfinished`], [`HarnessError::Write`].
     pub fn claim(path: &Path, identity: &str, claim: Claim) -> Result<Self, HarnessError> {
-        let failed = |path: &Path| {
-            let path = path.to_owned();
-            move |source| HarnessError::Write { path, source }
-        };
         let unfinished = path.join(UNFINISHED);
-        let lock = |folder: &OutputFolder| -> Result<File, HarnessError> {
-            let unfinished = folder.path().join(UNFINISHED);
-            fs::create_dir_all(&unfinished).map_err(failed(&unfinished))?;
-            let name = unfinished.join("lock");
-            let lock = File::create(&name).map_err(failed(&name))?;
-            match lock.try_lock() {
-                Ok(()) => Ok(lock),
-                Err(TryLockError::WouldBlock) => Err(HarnessError::InUse {
-                    path: folder.path().to_owned(),
-                }),
-                Err(TryLockError::Error(source)) => Err(HarnessError::Write { path: name, source }),
-            }
-        };
         let begun = unfinished.join("identity").exists();
         let mut folder = OutputFolder::prepare(path)?;
-        let mut held = lock(&folder)?;
+        let mut held = lock(path)?;
         if claim == Claim::Force && (begun || folder.path().join("manifest.json").exists()) {
             let aside = free_name(path);
             fs::rename(path, &aside).map_err(failed(path))?;
             folder = OutputFolder::prepare(path)?;
-            held = lock(&folder)?;
+            held = lock(path)?;
         }
         let this = Self {
             folder,
@@ -89,6 +73,19 @@ impl StudyFolder {
         let manifest: Option<serde_json::Value> = serde_json::from_slice(&text).ok();
         !path.join(UNFINISHED).join("identity").exists()
             && manifest.is_some_and(|manifest| manifest["identity"].as_str() == Some(identity))
+    }
+
+    /// Clears what a process left that was killed while it cleared the folder of a complete study.
+    ///
+    /// # Errors
+    /// [`HarnessError::InUse`], [`HarnessError::Write`].
+    pub fn clear_leftovers(path: &Path) -> Result<(), HarnessError> {
+        let unfinished = path.join(UNFINISHED);
+        if !unfinished.exists() {
+            return Ok(());
+        }
+        let _lock = lock(path)?;
+        clear(&unfinished)
     }
 
     /// Whether the study may use what the folder holds.
@@ -153,11 +150,36 @@ impl StudyFolder {
     /// # Errors
     /// [`HarnessError::Write`].
     pub fn complete(self) -> Result<(), HarnessError> {
-        fs::remove_dir_all(&self.unfinished).map_err(|source| HarnessError::Write {
-            path: self.unfinished.clone(),
-            source,
-        })
+        // First what calls the study unfinished: killed from here on, it is complete, and what is left is cleared by whoever comes.
+        let identity = self.unfinished.join("identity");
+        fs::remove_file(&identity).map_err(failed(&identity))?;
+        clear(&self.unfinished)
     }
+}
+
+/// Makes an error of the system one that names the file.
+fn failed(path: &Path) -> impl FnOnce(io::Error) -> HarnessError {
+    let path = path.to_owned();
+    move |source| HarnessError::Write { path, source }
+}
+
+/// The right to work in a folder, until it is dropped.
+fn lock(folder: &Path) -> Result<File, HarnessError> {
+    let unfinished = folder.join(UNFINISHED);
+    fs::create_dir_all(&unfinished).map_err(failed(&unfinished))?;
+    let name = unfinished.join("lock");
+    let lock = File::create(&name).map_err(failed(&name))?;
+    match lock.try_lock() {
+        Ok(()) => Ok(lock),
+        Err(TryLockError::WouldBlock) => Err(HarnessError::InUse {
+            path: folder.to_owned(),
+        }),
+        Err(TryLockError::Error(source)) => Err(HarnessError::Write { path: name, source }),
+    }
+}
+
+fn clear(unfinished: &Path) -> Result<(), HarnessError> {
+    fs::remove_dir_all(unfinished).map_err(failed(unfinished))
 }
 
 /// `PATH.old-1`, or the first of these names that is free.

@@ -97,6 +97,7 @@ pub(super) fn carry_out(plan: &Plan, models: &Models, way: &Way, out: &mut Out<'
         .shard
         .map_or_else(|| way.out_dir.clone(), |shard| shard_folder(&way.out_dir, shard));
     if way.claim == Claim::Resume && StudyFolder::is_complete(&place, &identity) {
+        StudyFolder::clear_leftovers(&place)?;
         let judged = Recorded::read(&place)?.study;
         if judged.is_some_and(|judged| judged.requirements != plan.requirements) {
             return Err(HarnessError::OtherRequirements { path: place });
