@@ -207,7 +207,21 @@ fn a_driver_pushes_the_chaser_and_its_death_fails_the_run_by_name() {
         "--out",
         text(&out),
     ];
-    let dies = ["--drive", &driver, "--set", "push.deed=1"];
+    let notes = |more: &[&str]| {
+        let said = harness(&[&line[..], &["--force"], more].concat());
+        let said = String::from_utf8(said.stderr).unwrap();
+        said.lines()
+            .filter(|line| line.contains("nothing feeds"))
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    };
+    // Where nobody commands there is nothing to be told of; of a driver that gives a part, one line for each filter says what is left.
+    assert_eq!(notes(&[]), [""; 0]);
+    let told = notes(&["--drive", &driver]);
+    assert_eq!(told.len(), 2, "{told:?}");
+    assert!(told[0].contains("snc: impulse_c_n[1], impulse_c_n[2]"), "{told:?}");
+
+    let dies = ["--force", "--drive", &driver, "--set", "push.deed=1"];
     harness(&[&line[..], &dies].concat());
     let failures = read_csv(&out.join("failures.csv"));
     assert_eq!(failures.len(), 4, "{failures:?}");

@@ -186,12 +186,16 @@ fn drive(system: &mut System, id: SlaveId, truth: SlaveId, driver: &Participant)
     Ok(())
 }
 
+/// Whether a variable is part of what is commanded of the chaser.
+fn is_command(name: &str) -> bool {
+    ports::of(Role::Command).any(|port| name.split('[').next() == Some(port.name))
+}
+
 /// Tells a filter what a driver commands the chaser to do, as far as it asks.
 fn announce(system: &mut System, driver: SlaveId, filter: SlaveId) -> Result<(), StudyError> {
-    let commands = |name: &str| ports::of(Role::Command).any(|port| name.split('[').next() == Some(port.name));
     let open = system.unconnected_inputs().into_iter();
     let asked: Vec<String> = open
-        .filter(|open| open.slave == filter && commands(&open.input))
+        .filter(|open| open.slave == filter && is_command(&open.input))
         .map(|open| open.input)
         .collect();
     for name in asked {
@@ -278,13 +282,23 @@ pub fn rehearse(spec: &Spec) -> Result<Vec<String>, StudyError> {
         &mut coupled.system,
         std::iter::once(coupled.truth).chain(seats.iter().copied()),
     );
-    let open = coupled
-        .system
-        .unconnected_inputs()
-        .into_iter()
-        .filter(|u| seats.contains(&u.slave))
-        .filter(|u| !(beside_bounds.contains(&u.slave) && u.input.starts_with(OF_TRUTH)));
-    let told = open.map(|u| format!("nothing feeds {}: {}; it keeps its start value", u.slave_name, u.input));
+    let open = coupled.system.unconnected_inputs();
+    let told = seats.iter().filter_map(|seat| {
+        let open = open.iter().filter(|u| u.slave == *seat);
+        let names: Vec<&str> = open
+            .map(|u| u.input.as_str())
+            .filter(|name| !(beside_bounds.contains(seat) && name.starts_with(OF_TRUTH)))
+            // Where nobody commands there is nothing to be told of.
+            .filter(|name| !(spec.drivers.is_empty() && is_command(name)))
+            .collect();
+        let label = coupled.system.name(*seat);
+        (!names.is_empty()).then(|| {
+            format!(
+                "nothing feeds {label}: {}; each keeps its start value",
+                names.join(", ")
+            )
+        })
+    });
     let unsaid = seats.iter().filter_map(|filter| {
         let names = units_unsaid(&coupled.system, coupled.truth, *filter, spec.world.frame);
         let label = coupled.system.name(*filter);
