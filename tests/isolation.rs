@@ -97,7 +97,7 @@ fn whatever_a_filter_does_costs_its_own_runs_alone() {
     let expected = ours(&alone);
     assert_eq!(expected.len(), 2 * RUNS);
     // Deed, and what the message of each run must name; none for one that does no harm.
-    let deeds: [(i32, &[&str]); 10] = [
+    let deeds: [(i32, &[&str]); 21] = [
         (1, &["signal 11", "segmentation fault", "about to touch"]),
         (2, &["signal 6", "abort"]),
         (3, &["exit code 0"]),
@@ -108,6 +108,17 @@ fn whatever_a_filter_does_costs_its_own_runs_alone() {
         (8, &[]),
         (9, &[]),
         (10, &["signal 11"]),
+        (11, &[]),
+        (12, &["gave up at step 100"]),
+        (13, &["beyond repair at step 100"]),
+        (14, &["Discard"]),
+        (15, &[]),
+        (16, &[]),
+        (17, &[]),
+        (18, &[]),
+        (19, &["ended"]),
+        (20, &["exit code 0"]),
+        (21, &["stack overflow"]),
     ];
     for (deed, says) in deeds {
         let out = folder.path().join(format!("deed{deed}"));
@@ -137,6 +148,10 @@ fn whatever_a_filter_does_costs_its_own_runs_alone() {
             "{said}"
         );
         assert_eq!(ours(&out), expected, "deed {deed} has touched the others");
+        // What an FMU has to say in a step is said once.
+        let warned = told.matches("note: in run 0, nasty: ").count();
+        assert_eq!(warned, usize::from((11..=13).contains(&deed)), "{told}");
+        assert!(deed != 11 || told.contains("lacks conviction"), "{told}");
         let failures = read_csv(&out.join("failures.csv"));
         assert_eq!(
             failures.len(),

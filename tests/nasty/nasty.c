@@ -1,16 +1,54 @@
 /* A filter that misbehaves on purpose, as an FMU. It estimates zeros at every sample and offers to push the chaser at 1 m/s2, which
    nobody has asked it to; the parameter `deed` says what it does to
    the process that has loaded it, and in which call. Written without the FMI headers. */
+#define _GNU_SOURCE
+#include <fenv.h>
+#include <locale.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-enum Deed { NONE, SEGFAULT, ABORT, EXIT, LOOP_IN_STEP, LOOP_IN_INIT, EAT_MEMORY, NOT_A_NUMBER, STATUS_77, PRINT, SEGFAULT_IN_INIT };
+enum Deed {
+  NONE,
+  SEGFAULT,
+  ABORT,
+  EXIT,
+  LOOP_IN_STEP,
+  LOOP_IN_INIT,
+  EAT_MEMORY,
+  NOT_A_NUMBER,
+  STATUS_77,
+  PRINT,
+  SEGFAULT_IN_INIT,
+  WARN,
+  ERR,
+  FATAL,
+  DISCARD,
+  SET_FLOATING_POINT_MODE,
+  CHANGE_FOLDER,
+  SET_LOCALE,
+  TAKE_SIGNALS,
+  CLOSE_FILES,
+  EXIT_WITHOUT_HANDLERS,
+  RUN_OUT_OF_STACK,
+};
+
+typedef void (*Logger)(void *environment, const char *name, int status, const char *category, const char *message, ...);
+/* The first and the last of the host's functions. */
+typedef struct {
+  Logger log;
+  void *others[3];
+  void *environment;
+} Host;
 
 typedef struct {
   int deed, count, steps;
   double time, now;
+  const Host *host;
 } Filter;
 
 static void loop(void) {
@@ -28,8 +66,11 @@ const char *fmi2GetVersion(void) { return "2.0"; }
 const char *fmi2GetTypesPlatform(void) { return "default"; }
 void *fmi2Instantiate(const char *name, int type, const char *guid, const char *resources, const void *host, int visible,
                       int logging) {
-  (void)name, (void)type, (void)guid, (void)resources, (void)host, (void)visible, (void)logging;
-  return calloc(1, sizeof(Filter));
+  (void)name, (void)type, (void)guid, (void)resources, (void)visible, (void)logging;
+  Filter *f = calloc(1, sizeof *f);
+  if (f)
+    f->host = host;
+  return f;
 }
 void fmi2FreeInstance(void *c) { free(c); }
 int fmi2SetDebugLogging(void *c, int on, size_t n, const char *const *names) {
@@ -59,6 +100,16 @@ int fmi2Terminate(void *c) {
 int fmi2Reset(void *c) {
   (void)c;
   return 0;
+}
+
+static void tell(const Filter *f, int status, const char *text) {
+  f->host->log(f->host->environment, "nasty", status, "logAll", "%s at step %d", text, f->steps);
+}
+
+static int deeper(int depth) {
+  volatile char eaten[4096];
+  eaten[0] = (char)depth;
+  return depth < 0 ? 0 : deeper(depth + 1) + eaten[0];
 }
 
 /* From the hundredth step of a run on, so that there is something to lose. */
@@ -92,6 +143,43 @@ int fmi2DoStep(void *c, double t, double h, int set) {
     printf("scenario,filter,nonsense\n%s\n", "\xff\xfe not for the table");
     fflush(stdout);
     break;
+  case WARN:
+    f->host->log(f->host->environment, "nasty", 1, "logAll", "lacks %s", "conviction");
+    break;
+  case ERR:
+    tell(f, 3, "gave up");
+    return 3;
+  case FATAL:
+    tell(f, 4, "beyond repair");
+    return 4;
+  case DISCARD:
+    return 2;
+  case SET_FLOATING_POINT_MODE:
+    fesetround(FE_UPWARD);
+    feenableexcept(FE_INEXACT);
+    break;
+  case CHANGE_FOLDER:
+    if (chdir("/") != 0)
+      return 3;
+    umask(0777);
+    break;
+  case SET_LOCALE:
+    setlocale(LC_ALL, "");
+    setlocale(LC_NUMERIC, "de_DE.UTF-8");
+    break;
+  case TAKE_SIGNALS:
+    signal(SIGTERM, SIG_IGN);
+    signal(SIGINT, SIG_IGN);
+    signal(SIGPIPE, SIG_DFL);
+    break;
+  case CLOSE_FILES:
+    for (int file = 0; file < 1024; file++)
+      close(file);
+    break;
+  case EXIT_WITHOUT_HANDLERS:
+    _exit(0);
+  case RUN_OUT_OF_STACK:
+    return deeper(1) == 7;
   }
   return 0;
 }

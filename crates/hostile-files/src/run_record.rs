@@ -83,6 +83,7 @@ fn outcome(run: u32) -> Outcome {
             relative: Vector3::zeros(),
             chaser: None,
         }],
+        messages: vec!["nav: lacks conviction".to_owned()],
         parts: vec![Part {
             row: RunRow {
                 run,

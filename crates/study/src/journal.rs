@@ -237,6 +237,7 @@ mod tests {
             steps: 7,
             truth_time: SlaveTime::default(),
             path: Vec::new(),
+            messages: vec!["snc: is told".to_owned()],
             parts: vec![Part {
                 row: RunRow::new(run, &[record], 0, &Ending::default()),
                 records: vec![record],

@@ -18,6 +18,8 @@ pub struct Outcome {
     pub truth_time: SlaveTime,
     /// Where the vehicles truly were, thinned; of run 0 alone.
     pub path: Vec<PathPoint>,
+    /// What the FMUs have logged, by name; of run 0 alone.
+    pub messages: Vec<String>,
     /// By filter, in the order of the study.
     pub parts: Vec<Part>,
 }
@@ -41,6 +43,7 @@ impl Outcome {
             steps: 0,
             truth_time: SlaveTime::default(),
             path: Vec::new(),
+            messages: Vec::new(),
             parts: Vec::new(),
         }
     }
@@ -54,6 +57,11 @@ impl Outcome {
         self.path.extend(other.path);
         self.path.sort_by_key(|point| point.epoch);
         self.path.dedup_by_key(|point| point.epoch);
+        for text in other.messages {
+            if !self.messages.contains(&text) {
+                self.messages.push(text);
+            }
+        }
     }
 
     /// Makes a run.
@@ -87,13 +95,21 @@ impl Outcome {
             steps: report.steps,
             truth_time: report.truth_time,
             path: path.into_points(),
+            messages: if run == 0 { report.messages } else { Vec::new() },
             parts: parts.collect(),
         }
     }
 }
 
 /// All of an outcome but its records.
-type Head = (u32, u64, SlaveTime, Vec<PathPoint>, Vec<(RunRow, SlaveTime)>);
+type Head = (
+    u32,
+    u64,
+    SlaveTime,
+    Vec<PathPoint>,
+    Vec<String>,
+    Vec<(RunRow, SlaveTime)>,
+);
 
 impl Outcome {
     /// As bytes, behind those that are there; the number of the run comes first.
@@ -102,7 +118,8 @@ impl Outcome {
     /// None but for lack of memory.
     pub(crate) fn to_bytes(&self, bytes: Vec<u8>) -> Result<Vec<u8>, postcard::Error> {
         let rows = self.parts.iter().map(|part| (&part.row, part.time)).collect::<Vec<_>>();
-        let mut bytes = postcard::to_extend(&(self.run, self.steps, self.truth_time, &self.path, rows), bytes)?;
+        let head = (self.run, self.steps, self.truth_time, &self.path, &self.messages, rows);
+        let mut bytes = postcard::to_extend(&head, bytes)?;
         for part in &self.parts {
             record::to_bytes(&part.records, &mut bytes);
         }
@@ -115,7 +132,7 @@ impl Outcome {
     /// When they are something else.
     pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Self, postcard::Error> {
         let (head, mut rest) = postcard::take_from_bytes::<Head>(bytes)?;
-        let (run, steps, truth_time, path, rows) = head;
+        let (run, steps, truth_time, path, messages, rows) = head;
         let parts = rows.into_iter().map(|(row, time)| {
             let records = record::from_bytes(&mut rest).ok_or(postcard::Error::DeserializeUnexpectedEnd)?;
             Ok(Part { row, records, time })
@@ -129,6 +146,7 @@ impl Outcome {
             steps,
             truth_time,
             path,
+            messages,
             parts,
         })
     }

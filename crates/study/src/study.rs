@@ -49,6 +49,8 @@ pub struct StudyResult {
     pub filters: Vec<FilterResult>,
     /// Where the vehicles truly were in run 0, thinned.
     pub path: Vec<PathPoint>,
+    /// What the FMUs have logged in run 0, by name.
+    pub messages: Vec<String>,
     /// Time on the clock.
     pub wall: Duration,
 }
@@ -67,10 +69,10 @@ impl Study {
         let layout = self.spec.layout();
         let empty = |filter| FilterResult::of(filter, &layout);
         let mut filters: Vec<_> = self.spec.filters.iter().map(empty).collect();
-        let mut path = Vec::new();
+        let (mut path, mut messages) = (Vec::new(), Vec::new());
         self.each(&Shard::WHOLE.runs(self.runs), engine, |outcome| {
             if outcome.run == 0 {
-                path = outcome.path;
+                (path, messages) = (outcome.path, outcome.messages);
             }
             for (filter, part) in filters.iter_mut().zip(outcome.parts) {
                 filter.fold(part.row, &part.records)?;
@@ -83,6 +85,7 @@ impl Study {
         Ok(StudyResult {
             filters,
             path,
+            messages,
             wall: begin.elapsed(),
         })
     }

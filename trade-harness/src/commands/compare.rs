@@ -74,7 +74,7 @@ pub(super) fn carry_out(plan: &Plan, models: &Models, way: &Way, out: &mut Out<'
         .unwrap_or(foreign || !plan.isolation.preload.is_empty());
     let scratch = scratch()?;
     let trial = cast(plan, models, scratch.path())?;
-    let mut workers = Vec::new();
+    let (mut workers, mut said) = (Vec::new(), Vec::new());
     for study in &trial {
         let world = &study.spec.world;
         for text in &world.notes {
@@ -90,6 +90,7 @@ pub(super) fn carry_out(plan: &Plan, models: &Models, way: &Way, out: &mut Out<'
             rehearse(&study.spec)?
         };
         told.iter().for_each(|text| note(&format!("note: {text}")));
+        said.extend(told);
     }
     let identity = identity(&trial, models)?;
     drop(trial);
@@ -162,6 +163,7 @@ pub(super) fn carry_out(plan: &Plan, models: &Models, way: &Way, out: &mut Out<'
         studies: &studies,
         results: &results,
         workers: &workers,
+        said: &said,
         page: plan.output.report,
         wide: way.wide,
     };

@@ -48,6 +48,8 @@ pub(super) struct Finished<'a> {
     pub(super) results: &'a [StudyResult],
     /// Those that have made the runs, where this process has not.
     pub(super) workers: &'a [Workers],
+    /// Notes that have been said.
+    pub(super) said: &'a [String],
     /// Whether the folder gets its HTML page.
     pub(super) page: bool,
     /// Whether every column is printed.
@@ -88,6 +90,13 @@ pub(super) fn finish(
         }
     }
     folder.complete()?;
+    let mut said = finished.said.to_vec();
+    for text in finished.results.iter().flat_map(|result| &result.messages) {
+        if !said.contains(text) {
+            note(&format!("note: in run 0, {text}"));
+            said.push(text.clone());
+        }
+    }
     let claims_missed = print(&report, plan, finished.wide, &output, &files, out)?;
     let hopeless = hopeless(&report);
     hopeless.iter().for_each(|text| note(text));

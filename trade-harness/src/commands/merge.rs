@@ -68,6 +68,7 @@ pub(super) fn merge(args: &MergeArgs, out: &mut Out<'_>) -> Result<Verdict, Harn
         studies: &studies,
         results: &results?,
         workers: &[],
+        said: &[],
         page: plan.output.report,
         wide: args.wide,
     };
