@@ -1,6 +1,7 @@
 //! The loaded library: its functions, and the folder it was unpacked to.
 #![allow(unsafe_code, reason = "loads a C library and looks its functions up")]
 
+use std::fs;
 use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -70,6 +71,8 @@ pub(crate) struct Binary {
     pub(crate) functions: Functions,
     /// `file:` URI of the unpacked `resources` folder.
     pub(crate) resources: String,
+    /// Whether it can change folder and signal handlers of the process.
+    pub(crate) wide: bool,
     /// What was unusual about loading it.
     pub(crate) warnings: Vec<String>,
     /// Instances alive.
@@ -113,6 +116,7 @@ impl Binary {
         }
         let folder = archive.unpack()?;
         let file: PathBuf = folder.path().join(&entry);
+        let wide = fs::read(&file).map_or(true, |bytes| guard::is_wide(&bytes));
         let before_loading = BeforeLoading::now();
         let mut warnings = Vec::new();
         let library = open_with_help(&file, &entry, &mut warnings).map_err(|e| ImportError::Load {
@@ -131,6 +135,7 @@ impl Binary {
         Ok(Self {
             functions,
             resources: file_uri(&folder.path().join("resources")),
+            wide,
             warnings,
             alive: AtomicUsize::new(0),
             keep_loaded: AtomicBool::new(false),

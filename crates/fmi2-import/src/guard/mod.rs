@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | rounding, treatment of denormal numbers, exception masks and flags | thread | every call |
 //! | locale | thread and process | every call |
-//! | working directory, handlers of the signals that stop or crash a program | process | every call but later gets and sets |
+//! | working directory, handlers of the signals that stop or crash a program | process | every call but later gets and sets, and later steps of a library that imports nothing by which they are changed |
 //! | handlers of all signals, signal mask | process, thread | every call but later gets, sets, steps and saved states |
 //!
 //! Arithmetic and locale cost some nanoseconds. A working directory is a system call of 0.4 us and a handler one of 0.2 us, each
@@ -30,6 +30,7 @@ mod arithmetic;
 mod directory;
 #[cfg(unix)]
 mod locale;
+mod reach;
 #[cfg(unix)]
 mod signals;
 
@@ -39,6 +40,7 @@ use arithmetic::Arithmetic;
 use directory::Directory;
 #[cfg(unix)]
 use locale::{Locale, Place, ThreadLocale};
+pub(crate) use reach::is_wide;
 #[cfg(unix)]
 use signals::{Mask, Signals};
 
@@ -57,23 +59,35 @@ pub(crate) enum Watch {
 const WHOLE: u8 = 3;
 
 /// The first calls of each function that is called all the time, counted.
-#[derive(Debug, Default)]
-pub(crate) struct FirstCalls(Vec<(&'static str, u8)>);
+#[derive(Debug)]
+pub(crate) struct FirstCalls {
+    counts: Vec<(&'static str, u8)>,
+    /// How closely later steps are watched.
+    steps: Watch,
+}
 
 impl FirstCalls {
+    /// * `wide`: whether the library can change folder and handlers, as [`is_wide`] says.
+    pub(crate) fn new(wide: bool) -> Self {
+        Self {
+            counts: Vec::new(),
+            steps: if wide { Watch::Steps } else { Watch::Values },
+        }
+    }
+
     /// How closely to watch the next call of `function`.
     pub(crate) fn watch(&mut self, function: &'static str) -> Watch {
         let later = match function {
-            "fmi2DoStep" | "fmi2GetFMUstate" | "fmi2SetFMUstate" | "fmi2FreeFMUstate" => Watch::Steps,
+            "fmi2DoStep" | "fmi2GetFMUstate" | "fmi2SetFMUstate" | "fmi2FreeFMUstate" => self.steps,
             _ if function.starts_with("fmi2Get") || function.starts_with("fmi2Set") => Watch::Values,
             _ => return Watch::Whole,
         };
         // Literals of one function share their address; if not, it is watched whole a few times more.
         let counted = |(name, _): &&mut (&'static str, u8)| std::ptr::eq(*name, function);
-        match self.0.iter_mut().find(counted) {
+        match self.counts.iter_mut().find(counted) {
             Some((_, calls)) if *calls == WHOLE => return later,
             Some((_, calls)) => *calls += 1,
-            None => self.0.push((function, 1)),
+            None => self.counts.push((function, 1)),
         }
         Watch::Whole
     }

@@ -145,7 +145,7 @@ impl Instance {
             handles: Arc::default(),
             description,
             environment,
-            first_calls: FirstCalls::default(),
+            first_calls: FirstCalls::new(binary.wide),
             callbacks,
             binary,
         };

@@ -12,6 +12,8 @@ use serde::{Deserialize, Serialize};
 
 /// What rounding leaves of the difference of two covariances, of their size.
 const ROUNDING: f64 = 1e-12;
+/// What may be added to the variances instead of a search for the nearest covariance, of their size: a sample adds more.
+const LIFTS: [f64; 3] = [1e-9, 1e-8, 1e-7];
 /// Most steps in search of six eigenvalues.
 const EIGEN_STEPS: usize = 200;
 
@@ -139,14 +141,17 @@ fn predicted(prior: Matrix6<f64>, seen: &Seen) -> (f64, RowVector) {
 }
 
 /// What was found as a difference of covariances, made one that can be added to any: where rounding, or news of the
-/// accelerometer's bias on the way, has left it none, the nearest one in units of the deviations of what it is a part of.
+/// accelerometer's bias on the way, has left it none, one with a little more of the variances of what it is a part of; where that is
+/// not enough, the nearest one in units of its deviations.
 fn as_covariance(found: Matrix6<f64>, of: &Matrix6<f64>) -> Matrix6<f64> {
     let variances = of.diagonal();
-    if (found + Matrix6::from_diagonal(&(variances * ROUNDING)))
-        .cholesky()
-        .is_some()
-    {
+    let lifted = |by: f64| found + Matrix6::from_diagonal(&(variances * by));
+    if lifted(ROUNDING).cholesky().is_some() {
         return found;
+    }
+    let least = LIFTS.into_iter().map(lifted).find(|lifted| lifted.cholesky().is_some());
+    if let Some(covariance) = least {
+        return covariance;
     }
     let deviations = variances.map(f64::sqrt);
     let scales = deviations * deviations.transpose();

@@ -204,11 +204,16 @@ impl VelocityChanges {
 
     /// Logarithm of the sum of all weights, "no change" being 1, with what the data have said so far.
     fn ln_total(&self) -> f64 {
-        let exponent = |hypothesis: &Hypothesis| hypothesis.exponent - hypothesis.ln_base;
-        let most = self.open.iter().map(exponent).fold(0.0, f64::max);
+        let most = self.ln_most();
         let weight = |hypothesis: &Hypothesis| hypothesis.mass * hypothesis.factor(most);
         let sum: f64 = self.open.iter().map(weight).sum();
         most + math::ln(math::exp(-most) + sum)
+    }
+
+    /// Largest of the logarithms of likelihoods, that of "no change" among them.
+    fn ln_most(&self) -> f64 {
+        let exponent = |hypothesis: &Hypothesis| hypothesis.exponent - hypothesis.ln_base;
+        self.open.iter().map(exponent).fold(0.0, f64::max)
     }
 
     /// What the data now say of every hypothesis.
@@ -216,12 +221,18 @@ impl VelocityChanges {
         self.weighed.parts.clear();
         let parts = self.open.iter_mut().map(Hypothesis::weigh);
         self.weighed.parts.extend(parts);
-        let ln_total = self.ln_total();
+        let most = self.ln_most();
+        let mut sum = 0.0;
+        for (part, hypothesis) in self.weighed.parts.iter_mut().zip(&self.open) {
+            let factor = hypothesis.factor(most);
+            sum += hypothesis.mass * factor;
+            part.scale(factor);
+        }
+        let ln_total = most + math::ln(math::exp(-most) + sum);
         self.weighed.ln_total = ln_total;
         self.weighed.quiet = math::exp(-ln_total);
-        for (part, hypothesis) in self.weighed.parts.iter_mut().zip(&self.open) {
-            part.scale(hypothesis.factor(ln_total));
-        }
+        let of_total = math::exp(most - ln_total);
+        self.weighed.parts.iter_mut().for_each(|part| part.scale(of_total));
     }
 
     /// The mixture takes the place of the quiet filter. Of a change at the first hypothesis nothing is learnt.
