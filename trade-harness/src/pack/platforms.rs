@@ -297,11 +297,17 @@ impl Compiler {
         self.sysroot.join("lib/rustlib/src/rust")
     }
 
-    /// The same relative to the workspace, where they lie in it.
-    fn sources_inside(&self) -> Option<PathBuf> {
-        let sources = self.sources();
-        let sources = sources.canonicalize().unwrap_or(sources);
-        sources.strip_prefix(&self.workspace).ok().map(Path::to_owned)
+    /// The same relative to the workspace, where they lie in it: by every name that links give either of them.
+    fn sources_inside(&self) -> Vec<PathBuf> {
+        let named = |path: &Path| [Some(path.to_owned()), path.canonicalize().ok()].into_iter().flatten();
+        let workspaces: Vec<PathBuf> = named(&self.workspace).collect();
+        let inside = named(&self.sources()).flat_map(|sources| {
+            let relative = workspaces.iter().filter_map(|w| sources.strip_prefix(w).ok());
+            relative.map(Path::to_owned).collect::<Vec<_>>()
+        });
+        let mut inside: Vec<PathBuf> = inside.collect();
+        inside.dedup();
+        inside
     }
 
     /// * `lacks`: told each thing that is not here.
@@ -371,9 +377,12 @@ impl Compiler {
         }
         remap(&self.sources(), "rust");
         // Cargo names what lies in the workspace relative to it.
-        if let Some(inside) = self.sources_inside() {
-            remap(&inside, "rust");
-        }
+        let inside = self.sources_inside();
+        flags.extend(
+            inside
+                .iter()
+                .map(|from| format!("--remap-path-prefix={}=rust", from.display())),
+        );
         if target.contains("apple") {
             // By the linker: the compiler would call a tool that not every installation has.
             flags.extend(["-Cstrip=none", "-Clink-arg=-Wl,-S", "-Clink-arg=-Wl,-x"].map(str::to_owned));
@@ -472,6 +481,24 @@ mod tests {
         assert_eq!(flags("/other"), [whole]);
         let relative = "--remap-path-prefix=target/rust/lib/rustlib/src/rust=rust";
         assert_eq!(flags("/w"), [whole, relative]);
+    }
+
+    /// Debian's sources are a link within the system root.
+    #[cfg(unix)]
+    #[test]
+    fn sources_behind_a_link_have_the_same_name_by_either_path() {
+        let folder = tempfile::tempdir().unwrap();
+        let workspace = folder.path().canonicalize().unwrap();
+        let sysroot = workspace.join("target/usr");
+        std::fs::create_dir_all(sysroot.join("lib/rustlib/src")).unwrap();
+        std::fs::create_dir_all(sysroot.join("src/rustc")).unwrap();
+        std::os::unix::fs::symlink("../../../src/rustc", sysroot.join("lib/rustlib/src/rust")).unwrap();
+        let compiler = Compiler { sysroot, workspace };
+        let flags = compiler.flags("x86_64-pc-windows-gnu");
+        for path in ["target/usr/lib/rustlib/src/rust", "target/usr/src/rustc"] {
+            let flag = format!("--remap-path-prefix={path}=rust");
+            assert!(flags.contains(&flag), "{flag}: {flags:?}");
+        }
     }
 
     /// The header of a library for macOS, without load commands.
