@@ -212,6 +212,37 @@ fn what_the_host_changes_between_calls_stays() {
     }
 }
 
+/// A locale that is set anew has its name at another place each time, but for "C": each change of it is seen, and put back.
+#[test]
+fn a_named_locale_of_the_host_stays() {
+    let _alone = alone();
+    let set = |name: &CStr| {
+        // SAFETY: a NUL-terminated name.
+        assert!(
+            !unsafe { libc::setlocale(libc::LC_ALL, name.as_ptr()) }.is_null(),
+            "{name:?}"
+        );
+        World::now(&[]).locale
+    };
+    for place in ["AT_GET", "AT_STEP=0"] {
+        let shop = Workshop::new();
+        let Some(library) = shop.compile_source("meddler.c", &[place, "LOCALE=\"C\""]) else {
+            return;
+        };
+        let fmu = Fmu::open(shop.fmu("m.fmu", &tank_description(""), &library)).unwrap();
+        let mut instance = fmu.instantiate("m1", false).unwrap();
+        instance.exit_initialization().unwrap();
+        let named = set(c"C.UTF-8");
+        for k in 0..8 {
+            let _ = instance.do_step(f64::from(k), 1.0).unwrap();
+            assert_eq!(World::now(&[]).locale, named, "{place}: step {k}");
+            level(&mut instance);
+            assert_eq!(World::now(&[]).locale, named, "{place}: get {k}");
+        }
+        set(c"C");
+    }
+}
+
 #[test]
 fn threads_do_not_hand_on_what_an_fmu_changes() {
     let _alone = alone();

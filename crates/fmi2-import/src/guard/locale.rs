@@ -45,6 +45,14 @@ impl Locale {
         // SAFETY: a NUL-terminated name, which the function copies.
         unsafe { libc::setlocale(libc::LC_ALL, self.name.as_ptr()) };
     }
+
+    /// The same after it was put back, which gives its name a new place.
+    pub(super) fn put_back_at(&self) -> Self {
+        Self {
+            place: Place::now(),
+            name: self.name.clone(),
+        }
+    }
 }
 
 /// The locale of the thread alone, if it has one.

@@ -1,15 +1,25 @@
 //! What a library can reach, by what it asks the loader for.
 //!
-//! One that imports nothing by which a folder is changed, a signal handler installed or another library opened, and that needs none
-//! but libraries of the system, changes neither in a step; to look for it each time would cost more than the step. The raw system
-//! call is not counted: the standard library of Rust waits by it, and nobody installs handlers so.
+//! One that imports nothing by which a folder or the locale is changed, a signal handler installed or another library opened, and
+//! that takes all it imports from libraries of the system, changes none of these in a step by ordinary means; to look for it each
+//! time would cost more than the step. Raw system calls are not counted: the standard library of Rust waits by one, and a library
+//! that makes them to install a handler is seen in its first calls and when it is unloaded.
 
 use object::{BinaryFormat, File, Object};
 
-/// Functions by which the folder or a signal's handler is changed, or a library opened that may.
-const BEYOND: [&str; 16] = [
+/// Functions by which the folder, the locale or a signal's handler is changed, or what is looked up or opened may do so.
+const BEYOND: [&str; 29] = [
     "chdir",
     "fchdir",
+    "chroot",
+    "daemon",
+    "fts_open",
+    "fts64_open",
+    "fts_read",
+    "fts64_read",
+    "nftw",
+    "nftw64",
+    "setlocale",
     "signal",
     "sigaction",
     "__sigaction",
@@ -24,6 +34,10 @@ const BEYOND: [&str; 16] = [
     "dlopen",
     "dlmopen",
     "dlsym",
+    "dlvsym",
+    "__libc_dlopen_mode",
+    "__libc_dlsym",
+    "__libc_dlvsym",
 ];
 
 /// Libraries of the system that call none of these on their own.
@@ -38,36 +52,33 @@ const PLAIN: [&str; 8] = [
     "ld-linux-aarch64.so.1",
 ];
 
-/// Whether the library of these bytes can change folder and handlers; yes where it is not known.
+/// Whether the library of these bytes can change folder, locale and handlers; yes where it is not known.
 pub(crate) fn is_wide(library: &[u8]) -> bool {
-    imports(library).is_none_or(|imports| {
-        let known = |name: &String| PLAIN.contains(&name.as_str());
-        !imports.libraries.iter().all(known) || imports.functions.iter().any(|name| BEYOND.contains(&name.as_str()))
-    })
+    reaches_beyond(library).unwrap_or(true)
 }
 
-/// Names that a library asks the loader for.
-struct Imports {
-    libraries: Vec<String>,
-    functions: Vec<String>,
-}
-
-/// `None` where they cannot be read.
-fn imports(library: &[u8]) -> Option<Imports> {
+/// `None` where it cannot be read.
+fn reaches_beyond(library: &[u8]) -> Option<bool> {
     let file = File::parse(library)
         .ok()
         .filter(|file| file.format() == BinaryFormat::Elf)?;
-    let text = |name: &[u8]| String::from_utf8(name.to_vec()).ok();
-    let libraries = file.import_libraries().ok()?;
-    let functions = file.imports().ok()?;
-    Some(Imports {
-        libraries: libraries
-            .map(|library| text(library.ok()?.name()))
-            .collect::<Option<_>>()?,
-        functions: functions
-            .map(|import| text(import.ok()?.name().name()?))
-            .collect::<Option<_>>()?,
-    })
+    let plain = |name: &[u8]| PLAIN.iter().any(|known| known.as_bytes() == name);
+    let libraries = file.import_libraries().ok()?.collect::<Result<Vec<_>, _>>().ok()?;
+    let functions = file.imports().ok()?.collect::<Result<Vec<_>, _>>().ok()?;
+    // Tables that are not there read as empty ones, and a library that needs nothing brings all of the system with it.
+    if libraries.is_empty() || functions.is_empty() {
+        return Some(true);
+    }
+    let foreign = libraries.iter().any(|library| !plain(library.name()));
+    let beyond = functions.iter().any(|import| {
+        let named = import
+            .name()
+            .name()
+            .is_none_or(|name| BEYOND.iter().any(|beyond| beyond.as_bytes() == name));
+        // What no library of the system is named for comes from whatever happens to be loaded.
+        named || !(import.is_weak() || plain(import.library()))
+    });
+    Some(foreign || beyond)
 }
 
 #[cfg(all(test, target_os = "linux"))]
@@ -84,7 +95,7 @@ mod tests {
         let ran = Command::new("cc")
             .args(["-shared", "-fPIC", "-o"])
             .arg(&so)
-            .arg(&c)
+            .args([&c, Path::new("-lm")])
             .output();
         let done = ran.ok()?;
         assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
@@ -111,12 +122,20 @@ mod tests {
             "#include <signal.h>\nvoid f(void) { signal(SIGINT, SIG_IGN); }",
             "#include <signal.h>\nint f(struct sigaction *a) { return sigaction(SIGINT, a, a); }",
             "#include <dlfcn.h>\nvoid *f(void) { return dlopen(\"libz.so\", RTLD_NOW); }",
+            "#include <locale.h>\nchar *f(void) { return setlocale(LC_ALL, \"\"); }",
+            "#include <stdlib.h>\nvoid other(void);\nint f(void) { other(); return atoi(\"1\"); }",
+            "int f(void) { return 1; }",
         ] {
             assert!(is_wide(&built(folder.path(), wide).unwrap()), "{wide}");
         }
         for end in [0, 4, 64, narrow.len() / 2] {
             assert!(is_wide(&narrow[..end]), "{end} bytes");
         }
+        // Without its sections, nobody can read what it imports, but it loads: e_shoff, e_shnum and e_shstrndx.
+        let mut stripped = narrow.clone();
+        stripped[0x28..0x30].fill(0);
+        stripped[0x3c..0x40].fill(0);
+        assert!(is_wide(&stripped));
         // Any other library may call what it likes.
         let name = b"libc.so.6";
         let at = narrow.windows(name.len()).position(|w| w == name).unwrap();

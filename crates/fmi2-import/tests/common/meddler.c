@@ -20,6 +20,10 @@
 #include <immintrin.h>
 #endif
 
+#ifndef LOCALE
+#define LOCALE "C.UTF-8"
+#endif
+
 static void handler(int signal) { (void)signal; }
 
 static void meddle(void) {
@@ -35,7 +39,7 @@ static void meddle(void) {
 #ifdef __x86_64__
   __asm__ volatile("fldcw %0" : : "m"(word));
 #endif
-  if (chdir("/") || !setlocale(LC_ALL, "C.UTF-8")) abort();
+  if (chdir("/") || !setlocale(LC_ALL, LOCALE)) abort();
   uselocale(newlocale(LC_ALL_MASK, "C.UTF-8", NULL));
   for (size_t i = 0; i < sizeof signals / sizeof *signals; i++) signal(signals[i], handler);
   sigemptyset(&blocked);
