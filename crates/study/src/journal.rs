@@ -12,8 +12,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use crate::error::StudyError;
 use crate::outcome::Outcome;
 
-/// Begins a file; the number is that of the format.
-const HEAD: &[u8; 8] = b"rnt-run\x04";
+/// Begins a file; the number is that of the format, which is that of [`Outcome`] too.
+const HEAD: &[u8; 8] = b"rnt-run\x05";
 /// Begins a frame.
 const MARK: [u8; 4] = *b"run:";
 /// Mark, length and checksum.
