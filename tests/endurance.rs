@@ -183,6 +183,19 @@ fn a_folder_belongs_to_one_study_and_one_process() {
     assert_eq!(refused.status.code(), Some(2));
 }
 
+/// A folder with all that is in it.
+fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).unwrap();
+    for entry in std::fs::read_dir(from).unwrap().map(Result::unwrap) {
+        let there = to.join(entry.file_name());
+        if entry.path().is_dir() {
+            copy(&entry.path(), &there);
+        } else {
+            std::fs::copy(entry.path(), there).unwrap();
+        }
+    }
+}
+
 #[test]
 fn parts_merged_are_the_bytes_of_the_whole() {
     let folder = tempfile::tempdir().unwrap();
@@ -204,8 +217,16 @@ fn parts_merged_are_the_bytes_of_the_whole() {
     let said = String::from_utf8(early.stderr).unwrap();
     assert!(early.status.code() == Some(2) && said.contains("2 of 7 runs"), "{said}");
     part("3/3");
+    let (shards, kept) = (parts.join("shards"), folder.path().join("kept"));
+    copy(&shards, &kept);
     harness_ok(&["merge", text(&parts)]);
     assert!(results(&parts) == results(&whole), "bytes differ");
+    // Killed before the parts were removed: they go, and nothing else happens.
+    copy(&kept, &shards);
+    let again = harness_ok(&["merge", text(&parts)]);
+    assert!(again.contains("holds this study, complete"), "{again}");
+    assert!(results(&parts) == results(&whole) && !shards.exists());
+    assert!(!parts.join(".unfinished").exists());
     let none = harness(&["merge", text(&whole)]);
     assert_eq!(none.status.code(), Some(2));
 }

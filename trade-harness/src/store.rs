@@ -8,6 +8,7 @@ use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use same_file::Handle;
 use serde::Serialize;
 use study::{Journal, Models, Study, scheme_name};
 
@@ -80,12 +81,38 @@ impl StudyFolder {
     /// # Errors
     /// [`HarnessError::InUse`], [`HarnessError::Write`].
     pub fn clear_leftovers(path: &Path) -> Result<(), HarnessError> {
+        if path.join(UNFINISHED).exists() {
+            Self::clear_beside(path, None)?;
+        }
+        Ok(())
+    }
+
+    /// Removes a folder within that of a complete study: killed meanwhile, the folder is there whole, or nothing of it but what
+    /// [`StudyFolder::clear_leftovers`] clears.
+    ///
+    /// # Errors
+    /// [`HarnessError::InUse`], [`HarnessError::Write`].
+    pub fn remove_within(path: &Path, within: &str) -> Result<(), HarnessError> {
+        Self::clear_beside(path, Some(within))
+    }
+
+    fn clear_beside(path: &Path, within: Option<&str>) -> Result<(), HarnessError> {
         let unfinished = path.join(UNFINISHED);
-        if !unfinished.exists() {
+        let _lock = lock(path)?;
+        if unfinished.join("identity").exists() {
+            // Somebody has begun it anew meanwhile.
             return Ok(());
         }
-        let _lock = lock(path)?;
+        if let Some(within) = within {
+            let place = path.join(within);
+            fs::rename(&place, unfinished.join(within)).map_err(failed(&place))?;
+        }
         clear(&unfinished)
+    }
+
+    /// Whether the study that a folder has begun is this one.
+    pub fn has_begun(path: &Path, identity: &str) -> bool {
+        fs::read_to_string(path.join(UNFINISHED).join("identity")).is_ok_and(|begun| begun == identity)
     }
 
     /// Whether the study may use what the folder holds.
@@ -166,20 +193,53 @@ fn failed(path: &Path) -> impl FnOnce(io::Error) -> HarnessError {
 /// The right to work in a folder, until it is dropped.
 fn lock(folder: &Path) -> Result<File, HarnessError> {
     let unfinished = folder.join(UNFINISHED);
-    fs::create_dir_all(&unfinished).map_err(failed(&unfinished))?;
     let name = unfinished.join("lock");
-    let lock = File::create(&name).map_err(failed(&name))?;
-    match lock.try_lock() {
-        Ok(()) => Ok(lock),
-        Err(TryLockError::WouldBlock) => Err(HarnessError::InUse {
-            path: folder.to_owned(),
-        }),
-        Err(TryLockError::Error(source)) => Err(HarnessError::Write { path: name, source }),
+    loop {
+        fs::create_dir_all(&unfinished).map_err(failed(&unfinished))?;
+        let lock = match File::create(&name) {
+            Ok(lock) => lock,
+            // Whoever worked here has removed the folder just now.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+            Err(source) => return Err(HarnessError::Write { path: name, source }),
+        };
+        match lock.try_lock() {
+            // Whoever worked here may have removed the file before it was locked: then it locks out nobody.
+            Ok(()) if is_at(&lock, &name) => return Ok(lock),
+            Ok(()) => (),
+            Err(TryLockError::WouldBlock) => {
+                return Err(HarnessError::InUse {
+                    path: folder.to_owned(),
+                });
+            }
+            Err(TryLockError::Error(source)) => return Err(HarnessError::Write { path: name, source }),
+        }
     }
 }
 
+/// Whether an open file is the one at this path.
+fn is_at(file: &File, path: &Path) -> bool {
+    let open = file.try_clone().and_then(Handle::from_file);
+    open.is_ok_and(|open| Handle::from_path(path).is_ok_and(|there| there == open))
+}
+
+/// Removes the folder of what is under way, the lock last; held by the caller. Who waits for the lock makes a new one.
 fn clear(unfinished: &Path) -> Result<(), HarnessError> {
-    fs::remove_dir_all(unfinished).map_err(failed(unfinished))
+    let lock = unfinished.join("lock");
+    for entry in fs::read_dir(unfinished).map_err(failed(unfinished))? {
+        let path = entry.map_err(failed(unfinished))?.path();
+        let removed = match &path {
+            path if *path == lock => Ok(()),
+            path if path.is_dir() && !path.is_symlink() => fs::remove_dir_all(path),
+            path => fs::remove_file(path),
+        };
+        removed.map_err(failed(&path))?;
+    }
+    fs::remove_file(&lock).map_err(failed(&lock))?;
+    match fs::remove_dir(unfinished) {
+        // Somebody has come already, and looks for themselves.
+        Err(error) if matches!(error.kind(), io::ErrorKind::DirectoryNotEmpty | io::ErrorKind::NotFound) => Ok(()),
+        removed => removed.map_err(failed(unfinished)),
+    }
 }
 
 /// `PATH.old-1`, or the first of these names that is free.

@@ -12,6 +12,7 @@ use super::progress::run_watched;
 use super::shared::{Verdict, cast, scratch};
 use crate::HarnessError;
 use crate::cli::MergeArgs;
+use crate::requirements;
 use crate::store::{Claim, StudyFolder, identity};
 
 pub(super) fn merge(args: &MergeArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
@@ -39,6 +40,20 @@ pub(super) fn merge(args: &MergeArgs, out: &mut Out<'_>) -> Result<Verdict, Harn
     let models = Models::of(&plan, &own)?;
     let scratch = scratch()?;
     let identity = identity(&cast(&plan, &models, scratch.path())?, &models)?;
+    if StudyFolder::is_complete(&args.dir, &identity)
+        && parts.iter().all(|part| StudyFolder::has_begun(part, &identity))
+    {
+        StudyFolder::remove_within(&args.dir, SHARDS)?;
+        out.say(&format!(
+            "{} holds this study, complete; its parts are removed",
+            args.dir.display()
+        ))?;
+        return Ok(if requirements::missed_in(&args.dir)? == 0 {
+            Verdict::Done
+        } else {
+            Verdict::BoundsMissed
+        });
+    }
     let folder = StudyFolder::claim(&args.dir, &identity, Claim::Resume)?;
     let studies = cast(&plan, &models, folder.output().path())?;
     for study in &studies {
@@ -73,8 +88,7 @@ pub(super) fn merge(args: &MergeArgs, out: &mut Out<'_>) -> Result<Verdict, Harn
         wide: args.wide,
     };
     let judged = finish(folder, finished, &models, &plan, out)?;
-    let shards = args.dir.join(SHARDS);
-    fs::remove_dir_all(&shards).map_err(|source| HarnessError::Write { path: shards, source })?;
+    StudyFolder::remove_within(&args.dir, SHARDS)?;
     Ok(if judged.failed {
         Verdict::BoundsMissed
     } else {
