@@ -1,9 +1,9 @@
 //! Process noise of the target's three states per axis: r, v, a driven by white jerk or white acceleration.
 
-use numerics::math;
-
+use crate::dynamics::decay::Answer;
 use crate::state::TargetMatrix;
 use nalgebra::{Matrix3, Vector3};
+use numerics::math;
 
 /// Covariance of (r, v, a) of one axis after white jerk of unit density has acted over `dt`.
 ///
@@ -74,11 +74,35 @@ pub fn white_acceleration(q: f64, dt: f64) -> TargetMatrix {
 
 /// Discrete process noise of an acceleration da/dt = -beta a + w, w white of density `q`, on every axis, 9x9.
 ///
-/// The closed forms lose all digits for small beta dt; the integral of F(t) L q L^T F(t)^T is therefore summed by
-/// Gauss-Legendre points, which is exact to rounding for beta dt below about one.
-///
 /// * `q`: density of the driving jerk, m2/s5 in SI; `beta`: decay rate; `dt`: interval.
 pub fn gauss_markov(q: f64, beta: f64, dt: f64) -> TargetMatrix {
+    let block = if beta * dt > 1.0 {
+        short_lived(beta, dt)
+    } else {
+        long_lived(beta, dt)
+    };
+    on_every_axis(&block, &Vector3::repeat(q))
+}
+
+/// The same for one axis and unit density, in closed form: with (r, v, a) the answer to a unit jerk `dt` ago, r' = v and v' = a
+/// leave one integral, that of v^2. All digits go for small beta dt.
+fn short_lived(beta: f64, dt: f64) -> Matrix3<f64> {
+    let z = beta * dt;
+    let Answer {
+        position: r,
+        velocity: v,
+        left: a,
+    } = Answer::after(dt, beta);
+    let vv = (z - 2.0 * beta * v + (1.0 - a * a) / 2.0) / beta.powi(3);
+    // The integral of r^2, by r = (dt - v) / beta.
+    let rr = (z.powi(3) / 3.0 - z * z + z - 2.0 * z * a + (1.0 - a * a) / 2.0) / beta.powi(5);
+    let (rv, va, ra) = (r * r / 2.0, v * v / 2.0, r * v - vv);
+    let aa = (1.0 - a * a) / (2.0 * beta);
+    Matrix3::new(rr, rv, ra, rv, vv, va, ra, va, aa)
+}
+
+/// The same by Gauss-Legendre points of the integral of F(t) L L^T F(t)^T, exact to rounding for beta dt up to one.
+fn long_lived(beta: f64, dt: f64) -> Matrix3<f64> {
     // Nodes and weights of the eight-point rule on [-1, 1], positive half.
     const POINTS: [(f64, f64); 4] = [
         (0.183_434_642_495_649_8, 0.362_683_783_378_362),
@@ -88,32 +112,11 @@ pub fn gauss_markov(q: f64, beta: f64, dt: f64) -> TargetMatrix {
     ];
     let mut block = Matrix3::zeros();
     for (node, weight) in POINTS.iter().flat_map(|(x, w)| [(-x, *w), (*x, *w)]) {
-        let t = dt * (1.0 + node) / 2.0;
-        // Answer of (r, v, a) to a unit impulse of jerk a time t ago, by its series: beta t is small.
-        let x = beta * t;
-        let answer = Vector3::new(t * t * psi(x, 2), t * psi(x, 1), math::exp(-x));
+        let ago = Answer::after(dt * (1.0 + node) / 2.0, beta);
+        let answer = Vector3::new(ago.position, ago.velocity, ago.left);
         block += answer * answer.transpose() * (weight * dt / 2.0);
     }
-    on_every_axis(&block, &Vector3::repeat(q))
-}
-
-/// psi_1 = (1 - e^-x) / x and psi_2 = (x - 1 + e^-x) / x^2, accurate near zero.
-fn psi(x: f64, order: i32) -> f64 {
-    if x > 0.5 {
-        return if order == 1 {
-            -math::exp_m1(-x) / x
-        } else {
-            (x + math::exp_m1(-x)) / (x * x)
-        };
-    }
-    // sum over k of (-x)^k / (k + order)!
-    let mut term = if order == 1 { 1.0 } else { 0.5 };
-    let mut sum = 0.0;
-    for k in 1..20 {
-        sum += term;
-        term *= -x / f64::from(k + order);
-    }
-    sum
+    block
 }
 
 #[cfg(test)]
@@ -174,6 +177,30 @@ mod tests {
                     "dt = {dt}, beta = {beta}"
                 );
             }
+        }
+    }
+
+    /// A long interval is many short ones: Q(2 t) = F(t) Q(t) F(t)^T + Q(t).
+    #[test]
+    fn noise_of_what_dies_away_fast_adds_up() {
+        let (short, count) = (0.5, 40);
+        for beta in [0.04, 0.5, 1.9, 2.1, 10.0, 1e3] {
+            let mut f = TargetMatrix::identity();
+            let answer = Answer::after(short, beta);
+            f.fixed_view_mut::<3, 3>(0, 3).fill_diagonal(short);
+            f.fixed_view_mut::<3, 3>(0, 6).fill_diagonal(answer.position);
+            f.fixed_view_mut::<3, 3>(3, 6).fill_diagonal(answer.velocity);
+            f.fixed_view_mut::<3, 3>(6, 6).fill_diagonal(answer.left);
+            let step = gauss_markov(0.7, beta, short);
+            let expected = (0..count).fold(TargetMatrix::zeros(), |sum, _| f * sum * f.transpose() + step);
+            let ours = gauss_markov(0.7, beta, short * f64::from(count));
+            for (ours, expected) in ours.iter().zip(expected.iter()) {
+                assert!(
+                    (ours - expected).abs() <= 1e-11 * expected.abs(),
+                    "beta = {beta}: {ours} {expected}"
+                );
+            }
+            assert!(ours.cholesky().is_some(), "beta = {beta}");
         }
     }
 
