@@ -58,8 +58,8 @@ impl Model for NavModel {
         }
     }
 
-    fn set_resources(&mut self, folder: &Path) {
-        self.choice.resources = Some(folder.to_owned());
+    fn set_resources(&mut self, folder: Option<&Path>) {
+        self.choice.resources = folder.map(Path::to_owned);
     }
 
     fn identifier_with(own: &str, resources: &Path) -> Option<String> {

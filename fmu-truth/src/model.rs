@@ -44,8 +44,8 @@ impl Model for TruthModel {
         }
     }
 
-    fn set_resources(&mut self, folder: &Path) {
-        self.params.choice.resources = Some(folder.to_owned());
+    fn set_resources(&mut self, folder: Option<&Path>) {
+        self.params.choice.resources = folder.map(Path::to_owned);
     }
 
     fn identifier_with(own: &str, resources: &Path) -> Option<String> {
@@ -54,6 +54,7 @@ impl Model for TruthModel {
 
     fn initialise(&mut self, experiment: &Experiment, _log: &mut Log<'_>) -> Result<(), ModelError> {
         let simulation = Simulation::new(&self.params, experiment.start_time, &self.inputs)?;
+        self.signals = nothing();
         self.signals.nav_init = std::array::from_fn(|i| simulation.initial_estimate()[i]);
         show(&mut self.signals, simulation.sample());
         self.simulation = Some(simulation);

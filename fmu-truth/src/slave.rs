@@ -44,10 +44,11 @@ pub fn show(signals: &mut Signals, sample: &SensorSample) {
     signals.sensors = sample.sensors;
     let orbit = |o: &TargetOrbit| [o.r, o.r_dot, o.h, o.inclination, o.argument_of_latitude, o.node];
     signals.target_orbit = sample.target_orbit.as_ref().map_or([0.0; 6], orbit);
-    if let Some(axes) = &sample.target_axes {
-        signals.dcm_lvlh_n = std::array::from_fn(|i| axes.dcm_lvlh_n[(i / 3, i % 3)]);
-        signals.omega_lvlh = axes.omega.into();
-    }
+    let axes = sample.target_axes.as_ref();
+    signals.dcm_lvlh_n = axes.map_or([0.0; 9], |axes| {
+        std::array::from_fn(|i| axes.dcm_lvlh_n[(i / 3, i % 3)])
+    });
+    signals.omega_lvlh = axes.map_or([0.0; 3], |axes| axes.omega.into());
     signals.accelerometer_valid = sample.accelerometer.valid;
     signals.accelerometer_mean = sample.accelerometer.mean;
     signals.alpha_c_bc = sample.accelerometer.alpha_c_bc.into();

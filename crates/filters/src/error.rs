@@ -84,8 +84,10 @@ pub enum FilterError {
         name: String,
     },
     /// The first sample arrived and no initial estimate had been given.
-    #[error("nav_init.x is all zero when sample 1 at t = {t_s} s arrives: connect or set nav_init.x[1..18]")]
+    #[error("nav_init.x is all zero when sample {count} at t = {t_s} s arrives: connect or set nav_init.x[1..18]")]
     NoInitialEstimate {
+        /// Ordinal of the sample.
+        count: i32,
         /// Epoch of the sample, s.
         t_s: f64,
     },
@@ -120,7 +122,9 @@ pub enum FilterError {
         limit_s: f64,
     },
     /// An attitude matrix that is not a rotation.
-    #[error("dcm_bc_n of the sample at t = {t_s} s is not a rotation: |D D^T - I| reaches {defect:.3e}")]
+    #[error(
+        "dcm_bc_n of the sample at t = {t_s} s is not a rotation, |D D^T - I| reaches {defect:.3e}: connect dcm_bc_n, all nine elements, row by row"
+    )]
     NotARotation {
         /// Epoch, s.
         t_s: f64,

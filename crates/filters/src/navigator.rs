@@ -379,7 +379,10 @@ impl Navigator {
             return Ok(());
         }
         if nav_init.iter().all(|v| *v == 0.0) {
-            return Err(FilterError::NoInitialEstimate { t_s });
+            return Err(FilterError::NoInitialEstimate {
+                count: sample.count,
+                t_s,
+            });
         }
         estimator.check_start(nav_init, t_s)
     }
@@ -393,7 +396,8 @@ impl Navigator {
     /// * `nav_init`: the initial estimate at the start time, 18 states, SI; read with the first sample only.
     ///
     /// # Errors
-    /// When the sample makes no sense or the filter breaks down; the filter should then not be used further.
+    /// When the sample makes no sense, as [`Navigator::check`] finds, and nothing has changed; or when the filter breaks down: its
+    /// status is then [`Status::Diverged`], its last estimate stays, and it should not be used further.
     pub fn process(&mut self, sample: &Sample, nav_init: &State) -> Result<bool, FilterError> {
         self.check(sample, nav_init)?;
         match self.source.arrival(sample) {
@@ -404,6 +408,18 @@ impl Navigator {
             }
             Arrival::New => (),
         }
+        let taken = self.take(sample, nav_init);
+        if taken.is_err() {
+            self.status = Status::Diverged;
+        }
+        taken.map(|()| true)
+    }
+
+    /// Takes a new sample that has been checked.
+    ///
+    /// # Errors
+    /// When the filter breaks down.
+    fn take(&mut self, sample: &Sample, nav_init: &State) -> Result<(), FilterError> {
         let mut sample = Cow::Borrowed(sample);
         let (t_s, last_s) = (sample.time, self.estimate.time);
         let gap_s = t_s - last_s;
@@ -486,7 +502,7 @@ impl Navigator {
         self.last = sample.without_readings(sample.time);
         self.expected = None;
         self.judge(due, seen);
-        Ok(true)
+        Ok(())
     }
 
     /// Lets communication time pass that has brought no new sample, s; after three periods of it the estimate is stale.

@@ -53,17 +53,17 @@ pub enum CallError {
     /// The table or the facts around it are faulty.
     #[error("the FMU could not be set up")]
     Definition(#[from] DefinitionError),
-    /// The host read another description.
-    #[error(
-        "the {kind} given is '{given}', that of this FMU is '{own}': modelDescription.xml and library are of different versions"
-    )]
+    /// The host read another description, or did not say where what the FMU was packed with lies.
+    #[error("the {kind} given is '{given}', that of this FMU is '{own}': {suspicion}")]
     WrongIdentifier {
         /// What the standard calls it.
         kind: &'static str,
         /// As given.
         given: String,
-        /// That of the library.
+        /// That of the library, with what it was packed with where that was found.
         own: String,
+        /// What may have led to it.
+        suspicion: String,
     },
     /// The instance would have no name.
     #[error("the instance name is empty")]

@@ -6,7 +6,7 @@ use std::ffi::c_void;
 use std::ops::{Deref, DerefMut};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use fmi_model::Snapshot;
+use fmi_model::{DefinitionError, Snapshot};
 use uuid::Uuid;
 
 use crate::identity::{Exported, own_guid};
@@ -21,6 +21,7 @@ use crate::version::Version;
 struct Head {
     /// Says what follows; cleared when it is freed.
     magic: AtomicU64,
+    /// That of the library: which type follows.
     guid: [u8; 16],
 }
 
@@ -145,31 +146,38 @@ impl<V: Version, M> Drop for Claim<'_, V, M> {
 #[repr(C)]
 pub(crate) struct SavedState<M> {
     head: Head,
+    /// Identifier of the FMU it is a state of: that of the library, or what it was packed with made another of it.
+    identity: Uuid,
     pub(crate) snapshot: Snapshot<M>,
 }
 
 impl<M> SavedState<M> {
     /// A new handle, owned by the host until it frees it.
-    pub(crate) fn into_raw<V: Version>(guid: Uuid, snapshot: Snapshot<M>) -> *mut c_void {
+    pub(crate) fn into_raw<V: Version>(identity: Uuid, snapshot: Snapshot<M>) -> Result<*mut c_void, DefinitionError>
+    where
+        M: Exported<V>,
+    {
         let state = Self {
-            head: Head::new(state_of::<V>(), guid),
+            head: Head::new(state_of::<V>(), own_guid::<V, M>()?),
+            identity,
             snapshot,
         };
-        Box::into_raw(Box::new(state)).cast()
+        Ok(Box::into_raw(Box::new(state)).cast())
     }
 
-    /// The state behind a handle of this FMU; `None` if it is null, freed, or of another FMU.
+    /// The state behind a handle of the FMU with this identifier; `None` if it is null, freed, or of another FMU.
     ///
     /// # Safety
     /// `state` is null or points to a saved state that lives unchanged through `'a`.
-    pub(crate) unsafe fn recognise<'a, V: Version>(state: *mut c_void) -> Option<&'a Self>
+    pub(crate) unsafe fn recognise<'a, V: Version>(state: *mut c_void, identity: Uuid) -> Option<&'a Self>
     where
         M: Exported<V>,
     {
         // SAFETY: a saved state begins with its head.
         let recognised = unsafe { Head::recognise::<V, M>(state, state_of::<V>()) };
-        // SAFETY: the head says that a state of this very FMU follows, and the caller vouches for its life.
-        recognised.then(|| unsafe { &*state.cast::<Self>() })
+        // SAFETY: the head says that a state of this very type follows, and the caller vouches for its life.
+        let state = recognised.then(|| unsafe { &*state.cast::<Self>() });
+        state.filter(|state| state.identity == identity)
     }
 
     /// Replaces what a recognised state holds.

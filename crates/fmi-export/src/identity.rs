@@ -36,11 +36,11 @@ pub(crate) fn own_guid<V: Version, M: Exported<V>>() -> Result<Uuid, DefinitionE
     Ok(*cell.get_or_init(|| guid))
 }
 
-/// What marks the serialized states of `M`.
-pub(crate) fn seal<V: Version, M: Exported<V>>() -> Result<Seal, DefinitionError> {
-    Ok(Seal {
+/// What marks the serialized states of an FMU with this identifier.
+pub(crate) fn seal<V: Version>(identity: Uuid) -> Seal {
+    Seal {
         magic: [b'F', b'M', b'U', V::DIGIT, b'C', b'S', b's', b't'],
         tool: V::TOOL,
-        guid: own_guid::<V, M>()?,
-    })
+        guid: identity,
+    }
 }

@@ -4,6 +4,7 @@ use std::ffi::CString;
 use std::path::PathBuf;
 
 use fmi_model::{Category, Checked, Experiment, InstanceError, Log, Model, Phase, Scalar, Snapshot, guarded};
+use uuid::Uuid;
 
 use crate::error::CallError;
 use crate::log::Logger;
@@ -16,6 +17,8 @@ pub type Answer = Result<Status, CallError>;
 
 /// One instance, as the functions of the boundary see it. Variables go by the numbers of their entries.
 pub struct Instance<V: Version, M> {
+    /// What the description is tied by: the identifier of the library, or what the FMU was packed with made another of it.
+    identity: Uuid,
     logger: Logger<V::Sink>,
     model: fmi_model::Instance<M>,
     /// The texts that were handed out last; they hold until others are.
@@ -23,8 +26,9 @@ pub struct Instance<V: Version, M> {
 }
 
 impl<V: Version, M: Model> Instance<V, M> {
-    pub(crate) fn new(logger: Logger<V::Sink>, resources: Option<PathBuf>) -> Self {
+    pub(crate) fn new(identity: Uuid, logger: Logger<V::Sink>, resources: Option<PathBuf>) -> Self {
         Self {
+            identity,
             logger,
             model: resources.map_or_else(fmi_model::Instance::new, fmi_model::Instance::with_resources),
             texts: Vec::new(),
@@ -206,6 +210,11 @@ impl<V: Version, M: Model> Instance<V, M> {
     }
 
     // Saved states.
+
+    /// Whose states it takes.
+    pub(crate) fn identity(&self) -> Uuid {
+        self.identity
+    }
 
     pub(crate) fn state(&self) -> &Snapshot<M> {
         self.model.state()

@@ -1,11 +1,12 @@
 //! Creation, logging and end of an instance.
 #![allow(unsafe_code, reason = "raw pointers come in, references and boxes go on")]
 
-use std::ffi::{c_char, c_int, c_void};
+use std::ffi::{CStr, c_char, c_int, c_void};
 use std::path::PathBuf;
 use std::ptr;
 
 use fmi_model::{braced, guarded};
+use uuid::Uuid;
 
 use crate::call::call;
 use crate::error::CallError;
@@ -29,11 +30,63 @@ pub struct Wish {
     pub logging_on: bool,
 }
 
-/// Makes an instance; null, and the reason to `sink` if logging is on, for an empty name, a wrong identifier, a faulty definition, or what `resources`
-/// finds.
+/// Where the FMU's resources are, as the host says.
+#[derive(Debug)]
+pub struct Resources {
+    argument: &'static str,
+    /// `None` for a null pointer.
+    given: Option<String>,
+    /// `None` where no folder of this machine is meant.
+    folder: Option<PathBuf>,
+}
+
+impl Resources {
+    /// What the host says in `argument`. Whatever is no folder of this machine counts as none.
+    ///
+    /// * `path`: the path that the text means.
+    ///
+    /// # Safety
+    /// `location` is null or a NUL-terminated text that nobody writes to during the call.
+    pub unsafe fn read(
+        argument: &'static str,
+        location: *const c_char,
+        path: impl FnOnce(&str) -> Option<PathBuf>,
+    ) -> Self {
+        if location.is_null() {
+            return Self {
+                argument,
+                given: None,
+                folder: None,
+            };
+        }
+        // SAFETY: not null, and the caller vouches for the terminating NUL.
+        let given = unsafe { CStr::from_ptr(location) };
+        let meant = given.to_str().ok().and_then(path);
+        Self {
+            argument,
+            given: Some(given.to_string_lossy().into_owned()),
+            folder: meant.filter(|path| path.is_dir()),
+        }
+    }
+
+    /// Why a description and a library may not fit.
+    fn suspicion(self) -> String {
+        const VERSIONS: &str = "modelDescription.xml and library are of different versions";
+        if self.folder.is_some() {
+            return VERSIONS.to_owned();
+        }
+        let what = match self.given {
+            None => format!("{} is null", self.argument),
+            Some(given) => format!("{} '{given}' is no folder here", self.argument),
+        };
+        format!("{what}; an FMU packed with a mission needs it; of any other, {VERSIONS}")
+    }
+}
+
+/// Makes an instance; null, and the reason to `sink` if logging is on, for an empty name, a wrong identifier, a faulty definition, or
+/// what `resources` finds.
 ///
-/// * `resources`: looks at what else the standard's function was given, and answers with the folder of the FMU's resources, if there
-///   is one.
+/// * `resources`: looks at what else the standard's function was given, and answers where the FMU's resources are.
 ///
 /// # Safety
 /// The texts of the wish are null or NUL-terminated, and nobody writes to them during the call.
@@ -41,7 +94,7 @@ pub unsafe fn create<V: Version, M: Exported<V>>(
     function: &Function,
     sink: &V::Sink,
     wish: Wish,
-    resources: impl FnOnce() -> Result<Option<PathBuf>, CallError>,
+    resources: impl FnOnce() -> Result<Resources, CallError>,
 ) -> *mut c_void {
     let logger = Logger::new(sink.clone(), wish.logging_on);
     let created = guarded(|| {
@@ -77,13 +130,14 @@ pub unsafe fn create<V: Version, M: Exported<V>>(
 
 fn handle<V: Version, M: Exported<V>>(
     given: &str,
-    resources: Option<PathBuf>,
+    resources: Resources,
     logger: &Logger<V::Sink>,
 ) -> Result<Box<Handle<V, M>>, CallError> {
     let guid = own_guid::<V, M>()?;
     let own = braced(guid);
     // What an FMU was packed with may make it another.
     let own = resources
+        .folder
         .as_deref()
         .and_then(|folder| M::identifier_with(&own, folder))
         .unwrap_or(own);
@@ -92,9 +146,12 @@ fn handle<V: Version, M: Exported<V>>(
             kind: V::IDENTIFIER_NAME,
             given: given.to_owned(),
             own,
+            suspicion: resources.suspicion(),
         });
     }
-    let instance = Instance::new(logger.clone(), resources);
+    // Its states are not those of the library packed with something else.
+    let identity = Uuid::parse_str(&own).unwrap_or_else(|_| Uuid::new_v5(&guid, own.as_bytes()));
+    let instance = Instance::new(identity, logger.clone(), resources.folder);
     Ok(Box::new(Handle::new(guid, logger.clone(), instance)))
 }
 

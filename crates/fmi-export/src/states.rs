@@ -1,4 +1,4 @@
-//! Saved states. A state may be set on any instance of the same FMU.
+//! Saved states. A state may be set on any instance of the same FMU; the same library packed with something else is another one.
 #![allow(unsafe_code, reason = "opaque pointers come in, references go on")]
 
 use std::ffi::{c_int, c_void};
@@ -9,19 +9,24 @@ use fmi_model::Snapshot;
 use crate::call::call;
 use crate::error::CallError;
 use crate::handle::SavedState;
-use crate::identity::{Exported, own_guid, seal};
+use crate::identity::{Exported, seal};
+use crate::instance::Instance;
 use crate::memory;
 use crate::order::Function;
 use crate::status::Status;
 use crate::version::Version;
 
-/// The state behind an argument.
+/// The state behind an argument, of the same FMU as `instance`.
 ///
 /// # Safety
 /// `state` is null or a state that lives through `'a`.
-unsafe fn saved<'a, V: Version, M: Exported<V>>(state: *mut c_void) -> Result<&'a SavedState<M>, CallError> {
+unsafe fn saved<'a, V: Version, M: Exported<V>>(
+    instance: &Instance<V, M>,
+    state: *mut c_void,
+) -> Result<&'a SavedState<M>, CallError> {
     // SAFETY: the caller vouches for the same.
-    unsafe { SavedState::<M>::recognise::<V>(state) }.ok_or(CallError::ForeignState { argument: V::STATE })
+    unsafe { SavedState::<M>::recognise::<V>(state, instance.identity()) }
+        .ok_or(CallError::ForeignState { argument: V::STATE })
 }
 
 /// Saves the state. A handle that is not null is filled anew.
@@ -39,9 +44,9 @@ pub unsafe fn get_fmu_state<V: Version, M: Exported<V>>(
             let handle = memory::array(V::STATE, state.cast_const(), 1)?[0];
             if handle.is_null() {
                 let snapshot = instance.state().clone();
-                state.write(SavedState::into_raw::<V>(own_guid::<V, M>()?, snapshot));
+                state.write(SavedState::into_raw::<V>(instance.identity(), snapshot)?);
             } else {
-                saved::<V, M>(handle)?;
+                saved::<V, M>(instance, handle)?;
                 SavedState::<M>::replace(handle, instance.state().clone());
             }
             Ok(Status::Ok)
@@ -61,7 +66,7 @@ pub unsafe fn set_fmu_state<V: Version, M: Exported<V>>(
     // SAFETY: the caller vouches for the same.
     unsafe {
         call::<V, M>(component, function, |instance| {
-            instance.set_state(&saved::<V, M>(state)?.snapshot)
+            instance.set_state(&saved::<V, M>(instance, state)?.snapshot)
         })
     }
 }
@@ -77,10 +82,10 @@ pub unsafe fn free_fmu_state<V: Version, M: Exported<V>>(
 ) -> c_int {
     // SAFETY: `state` points to null or to a state of this FMU, which is not used afterwards.
     unsafe {
-        call::<V, M>(component, function, |_| {
+        call::<V, M>(component, function, |instance| {
             let handle = memory::array(V::STATE, state.cast_const(), 1)?[0];
             if !handle.is_null() {
-                saved::<V, M>(handle)?;
+                saved::<V, M>(instance, handle)?;
                 state.write(ptr::null_mut());
                 SavedState::<M>::free(handle);
             }
@@ -101,9 +106,14 @@ pub unsafe fn serialized_fmu_state_size<V: Version, M: Exported<V>>(
 ) -> c_int {
     // SAFETY: `size` points to room for one value.
     unsafe {
-        call::<V, M>(component, function, |_| {
+        call::<V, M>(component, function, |instance| {
             let size = memory::place("size", size)?;
-            size.write(saved::<V, M>(state)?.snapshot.to_bytes(&seal::<V, M>()?)?.len());
+            size.write(
+                saved::<V, M>(instance, state)?
+                    .snapshot
+                    .to_bytes(&seal::<V>(instance.identity()))?
+                    .len(),
+            );
             Ok(Status::Ok)
         })
     }
@@ -122,8 +132,10 @@ pub unsafe fn serialize_fmu_state<V: Version, M: Exported<V>>(
 ) -> c_int {
     // SAFETY: `buffer` has room for `size` bytes.
     unsafe {
-        call::<V, M>(component, function, |_| {
-            let bytes = saved::<V, M>(state)?.snapshot.to_bytes(&seal::<V, M>()?)?;
+        call::<V, M>(component, function, |instance| {
+            let bytes = saved::<V, M>(instance, state)?
+                .snapshot
+                .to_bytes(&seal::<V>(instance.identity()))?;
             let buffer = memory::room("serializedState", buffer, size)?;
             if buffer.len() < bytes.len() {
                 return Err(CallError::BufferTooSmall {
@@ -153,12 +165,12 @@ pub unsafe fn de_serialize_fmu_state<V: Version, M: Exported<V>>(
 ) -> c_int {
     // SAFETY: `bytes` has `size` bytes, `state` points to room for one handle.
     unsafe {
-        call::<V, M>(component, function, |_| {
+        call::<V, M>(component, function, |instance| {
             let bytes = memory::array("serializedState", bytes, size)?;
             let state = memory::place(V::STATE, state)?;
-            let seal = seal::<V, M>()?;
+            let seal = seal::<V>(instance.identity());
             let snapshot = Snapshot::<M>::from_bytes(bytes, &seal)?;
-            state.write(SavedState::into_raw::<V>(seal.guid, snapshot));
+            state.write(SavedState::into_raw::<V>(seal.guid, snapshot)?);
             Ok(Status::Ok)
         })
     }

@@ -17,8 +17,9 @@ pub type ModelError = Box<dyn std::error::Error + Send + Sync>;
 /// A simulation model that can be exported as a co-simulation slave.
 ///
 /// A value of the type is the whole state of one instance: cloning it saves the state, and serde turns it into bytes, so
-/// nothing that a later output depends on may live outside it or be skipped by serde. A saved state may be set on several instances,
-/// in several threads at once, so it is read by all of them.
+/// nothing that a later output depends on may live outside it or be skipped by serde, except for the folder of
+/// [`set_resources`](Self::set_resources). A saved state may be set on several instances, in several threads at once, so it is read by
+/// all of them.
 pub trait Model: Clone + Serialize + DeserializeOwned + Send + Sync + 'static {
     /// Name, version and defaults of the FMU; kept by the model crate in a `OnceLock`.
     fn info() -> &'static ModelInfo;
@@ -29,9 +30,10 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + Sync + 'static {
     /// A model whose variables have not been set. The start column of the table is applied to it right after.
     fn blank() -> Self;
 
-    /// Takes note of the folder with the FMU's resources: after the start column has been applied, at creation and at every
-    /// reset, and after a saved state has been restored.
-    fn set_resources(&mut self, _folder: &Path) {}
+    /// Takes note of the folder with the FMU's resources, `None` where there is none: after the start column has been applied, at
+    /// creation and at every reset, and after a saved state has been restored. It belongs to the instance, not to its state: serde
+    /// should skip it.
+    fn set_resources(&mut self, _folder: Option<&Path>) {}
 
     /// The identifier of an FMU that its resources make another than the one whose identifier is `own`; `None` when they do not.
     fn identifier_with(_own: &str, _resources: &Path) -> Option<String> {

@@ -14,7 +14,7 @@ pub struct Seal {
     pub magic: [u8; 8],
     /// What made the FMU, for messages.
     pub tool: &'static str,
-    /// What ties the FMU's library to its description.
+    /// What ties the FMU's library to its description and to what it was packed with.
     pub guid: Uuid,
 }
 
@@ -116,7 +116,7 @@ pub fn braced(guid: Uuid) -> String {
 }
 
 /// Raised whenever the layout of [`Snapshot`] or of the bytes around it changes.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 /// Where the payload begins: after magic, format, GUID and length.
 const PAYLOAD: usize = 8 + 4 + 16 + 8;
 const CHECKSUM: usize = 8;

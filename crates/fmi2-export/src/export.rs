@@ -5,9 +5,11 @@
 ///
 /// The functions only forward; see [`Model`](crate::Model) for what reaches the model. For the host:
 ///
-/// - Every call runs under one panic guard. After a panic the instance answers `fmi2Fatal` and can only be freed.
-/// - A refused call (out of order, unknown or unfit variable, value out of bounds, times that do not fit, a step longer than the
-///   model takes) ends in `fmi2Error`, changes nothing, and leaves the instance usable.
+/// - Every call runs under one panic guard. After a panic the instance answers `fmi2Fatal` and can only be freed; nothing is printed.
+/// - A step that the model does not take ([`Model::check_step`](crate::Model::check_step): too long, or with inputs that make no
+///   sense) is `fmi2Discard` and changes nothing; any other refused call (out of order, unknown or unfit variable, value out of
+///   bounds, times that do not fit) is `fmi2Error` and changes nothing. The instance stays usable. Status queries are `fmi2Discard`
+///   where the standard wants a pending step.
 /// - While logging is on, the logger is told why a call ended in something else than `fmi2OK`, and more, under the categories
 ///   that the host has asked for. While it is off, the logger is not called at all. Callbacks, or some of them, may be null.
 /// - An error of the model while it initialises or steps ends in `fmi2Error`; variables can then still be read, and

@@ -5,9 +5,11 @@
 ///
 /// The functions only forward; see [`Model`](crate::Model) for what reaches the model. For the host:
 ///
-/// - Every call runs under one panic guard. After a panic the instance answers `fmi3Fatal` and can only be freed.
-/// - A refused call (out of order, unknown or unfit variable, wrong number of values, value out of bounds, times that do not fit) ends
-///   in `fmi3Error`, tells the logger why if logging is on, changes nothing, and leaves the instance usable.
+/// - Every call runs under one panic guard. After a panic the instance answers `fmi3Fatal` and can only be freed; nothing is printed.
+/// - A step that the model does not take ([`Model::check_step`](crate::Model::check_step): too long, or with inputs that make no
+///   sense) is `fmi3Discard` and changes nothing; any other refused call (out of order, unknown or unfit variable, wrong number of
+///   values, value out of bounds, times that do not fit) is `fmi3Error` and changes nothing. The instance stays usable, and the logger
+///   is told why if logging is on.
 /// - An error of the model while it initialises or steps ends in `fmi3Error`; variables can then still be read, and
 ///   `fmi3Reset` or `fmi3SetFMUState` bring the instance back.
 /// - Calls on one instance must not overlap; those that do are refused. Instances are independent of each other.

@@ -4,8 +4,8 @@ use std::ffi::{CStr, c_char, c_int};
 use std::path::PathBuf;
 use std::ptr;
 
-use fmi_export::lifecycle::{self, Wish};
-use fmi_export::{CallError, Exported, Instance, call, memory};
+use fmi_export::lifecycle::{self, Resources, Wish};
+use fmi_export::{CallError, Exported, Instance, call};
 use fmi_model::Experiment;
 use fmi2_abi::{
     FMI_VERSION, Fmi2Boolean, Fmi2CallbackFunctions, Fmi2Component, Fmi2Real, Fmi2String, Fmi2Type, RawStatus,
@@ -68,10 +68,8 @@ pub unsafe fn instantiate<M: Exported<Fmi2>>(
     };
     let resources = || match Fmi2Type::from_raw(fmu_type) {
         Some(Fmi2Type::CoSimulation) => {
-            let location = (!resource_location.is_null())
-                // SAFETY: not null, so a string; see the module.
-                .then(|| unsafe { memory::text("fmuResourceLocation", resource_location) });
-            Ok(location.and_then(Result::ok).and_then(folder_of))
+            // SAFETY: null or a string; see the module.
+            Ok(unsafe { Resources::read("fmuResourceLocation", resource_location, path_of) })
         }
         Some(Fmi2Type::ModelExchange) => Err(CallError::CoSimulationOnly),
         None => Err(Fmi2Error::UnknownType { raw: fmu_type }.into()),
@@ -80,14 +78,19 @@ pub unsafe fn instantiate<M: Exported<Fmi2>>(
     unsafe { lifecycle::create::<Fmi2, M>(&order::INSTANTIATE, &sink, wish, resources) }
 }
 
-/// The folder that a resource location names: a `file:` URI as the standard asks for, or a plain path as some hosts give.
-fn folder_of(location: &str) -> Option<PathBuf> {
+/// The path that a resource location names: a `file:` URI as the standard asks for, or a plain path as some hosts give. That of
+/// another machine is a UNC path, `//server/share/...`.
+fn path_of(location: &str) -> Option<PathBuf> {
     let path = match location.strip_prefix("file:") {
         None => location.to_owned(),
         Some(rest) => {
-            let rest = rest
-                .strip_prefix("//")
-                .map_or(rest, |rest| rest.strip_prefix("localhost").unwrap_or(rest));
+            let rest = match rest.strip_prefix("//") {
+                None => rest,
+                Some(local) => match local.strip_prefix("localhost").unwrap_or(local) {
+                    local if local.starts_with('/') || local.as_bytes().get(1) == Some(&b':') => local,
+                    _ => rest,
+                },
+            };
             // A drive of Windows stands behind a slash of its own.
             let rest = match rest.as_bytes() {
                 [b'/', drive, b':', ..] if drive.is_ascii_alphabetic() => &rest[1..],
@@ -96,7 +99,7 @@ fn folder_of(location: &str) -> Option<PathBuf> {
             percent_decode_str(rest).decode_utf8().ok()?.into_owned()
         }
     };
-    Some(PathBuf::from(path)).filter(|path| path.is_dir())
+    Some(PathBuf::from(path))
 }
 
 /// Frees the instance in whatever phase it is. Null is fine.
@@ -164,21 +167,20 @@ mod tests {
 
     #[test]
     fn resource_locations_of_every_host_lead_to_the_folder() {
-        let base = tempfile::tempdir().unwrap();
-        let folder = base.path().join("with space");
-        std::fs::create_dir(&folder).unwrap();
-        let plain = folder.to_str().unwrap();
-        let coded = plain.replace(' ', "%20");
-        for location in [
-            plain.to_owned(),
-            format!("file:{coded}"),
-            format!("file://{coded}"),
-            format!("file://localhost{coded}"),
+        for (location, path) in [
+            ("/with space", "/with space"),
+            ("file:/with%20space", "/with space"),
+            ("file:///with%20space", "/with space"),
+            ("file://localhost/with%20space", "/with space"),
+            ("C:/a", "C:/a"),
+            ("file:///C:/a", "C:/a"),
+            ("file://C:/a", "C:/a"),
+            ("file://server/share/a", "//server/share/a"),
+            ("file:////server/share/a", "//server/share/a"),
+            ("file://localhosts/share/a", "//localhosts/share/a"),
         ] {
-            assert_eq!(folder_of(&location).as_deref(), Some(folder.as_path()), "{location}");
+            assert_eq!(path_of(location), Some(PathBuf::from(path)), "{location}");
         }
-        for location in ["", "file:///no/such/folder", "http://example.org/resources"] {
-            assert_eq!(folder_of(location), None, "{location}");
-        }
+        assert_eq!(path_of("file:///%ff"), None, "not UTF-8");
     }
 }

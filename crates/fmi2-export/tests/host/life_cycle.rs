@@ -294,6 +294,53 @@ fn steps_of_any_size_are_taken_past_the_stop_time_and_must_be_gapless() {
     assert_eq!(host.do_step(10001.1, 1.0), Fine, "as good as before");
 }
 
+/// Seconds since 2000 as of the end of 2025: doubles are 1.2e-7 s apart there, and 1e-9 of it is eight steps.
+const LATE: f64 = 8.2e8;
+
+#[test]
+fn steps_counted_or_added_up_follow_one_another_however_late_the_start() {
+    let h = 0.1;
+    for start in [0.0, LATE] {
+        let begun = || {
+            let host = Host::new();
+            assert_eq!(host.setup_experiment(0, 0.0, start, 0, 0.0), Fine);
+            assert_eq!(host.enter_initialization_mode(), Fine);
+            assert_eq!(host.exit_initialization_mode(), Fine);
+            host
+        };
+        let (counted, added_up) = (begun(), begun());
+        let mut t = start;
+        for k in 0..1_000_000 {
+            assert_eq!(added_up.do_step(t, h), Fine, "{t}");
+            t += h;
+            let t = start + f64::from(k) * h;
+            assert_eq!(counted.do_step(t, h), Fine, "{t}");
+        }
+        assert_eq!(counted.get_integer(&[vr("steps")]), Ok(vec![1_000_000]));
+    }
+}
+
+#[test]
+fn a_gap_is_refused_however_late_the_start() {
+    for start in [0.0, LATE, -LATE] {
+        let host = Host::new();
+        assert_eq!(host.setup_experiment(0, 0.0, start, 0, 0.0), Fine);
+        assert_eq!(host.enter_initialization_mode(), Fine);
+        assert_eq!(host.exit_initialization_mode(), Fine);
+        assert_eq!(host.do_step(start, 0.25), Fine);
+        let before = host.bytes().unwrap();
+        for off in [-0.25, 0.25, 1e-3, 1e-5] {
+            assert_eq!(host.do_step(start + 0.25 + off, 0.25), Error, "{start} {off}");
+            assert!(
+                host.reason(Error)
+                    .contains("does not follow on the end of the last step")
+            );
+            assert_eq!(host.bytes().unwrap(), before);
+        }
+        assert_eq!(host.do_step(start + 0.25, 0.25), Fine, "as good as before");
+    }
+}
+
 #[test]
 fn a_model_that_cannot_initialise_fails_until_reset() {
     let host = Host::new();

@@ -1,11 +1,13 @@
 //! What reaches the host's logger, and what does not.
 
+use std::process::Command;
+
 use fmi2_export::abi::Fmi2Status;
 
 use crate::host::{Host, Message, vr};
 use crate::probe::{FAILS_IN_STEP, FAILS_TO_INITIALISE, PANICS_IN_DROP, PANICS_IN_GET, PANICS_IN_STEP, WARNS};
 
-use Fmi2Status::{Error, Ok as Fine, Warning};
+use Fmi2Status::{Error, Fatal, Ok as Fine, Warning};
 
 /// Categories of the messages of one initialization and one step.
 fn run(host: &Host) -> Vec<String> {
@@ -67,6 +69,41 @@ fn silence_is_kept_whatever_goes_wrong() {
         host.set_fmu_state(std::ptr::null_mut());
         assert_eq!(host.free(), [], "behaviour {behaviour}");
     }
+}
+
+/// Says to a process of this test that it is the one which panics.
+const PANICS: &str = "FMI2_EXPORT_TEST_PANICS";
+
+/// The panic hook of the process, too: it prints nothing of a panic that is caught at the boundary, and all others as ever.
+#[test]
+fn a_panic_that_is_caught_is_not_printed() {
+    if std::env::var_os(PANICS).is_some() {
+        let host = Host::with_logging(false);
+        host.set_integer(&[vr("behaviour")], &[PANICS_IN_STEP]);
+        host.enter_initialization_mode();
+        host.exit_initialization_mode();
+        assert_eq!(host.do_step(0.0, 1.0), Fatal);
+        let loud = || {
+            let _ = std::panic::catch_unwind(|| panic!("of this thread"));
+        };
+        loud();
+        std::thread::spawn(|| panic!("of another thread")).join().unwrap_err();
+        return;
+    }
+    let own = std::env::current_exe().unwrap();
+    let name = "logging::a_panic_that_is_caught_is_not_printed";
+    let done = Command::new(own)
+        .args([name, "--exact", "--nocapture"])
+        .env(PANICS, "1")
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert!(done.status.success(), "{said}");
+    assert!(!said.contains("seized"), "{said}");
+    assert!(
+        said.contains("of this thread") && said.contains("of another thread"),
+        "{said}"
+    );
 }
 
 #[test]

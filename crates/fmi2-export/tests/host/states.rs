@@ -150,7 +150,7 @@ fn damaged_bytes_are_refused() {
     let longer = [&bytes[..], &[0]].concat();
     for (damaged, part) in [
         (change(0, 1), "no serialized state of an FMU made with fmi2-export"),
-        (change(8, 2), "of format 3, this FMU reads format 1"),
+        (change(8, 1), "of format 3, this FMU reads format 2"),
         (change(12, 1), "of the FMU with GUID"),
         (change(28, 1), "should have"),
         (change(40, 1), "checksum does not match"),

@@ -3,8 +3,8 @@
 use std::ffi::c_char;
 use std::path::PathBuf;
 
-use fmi_export::lifecycle::{self, Wish};
-use fmi_export::{CallError, Exported, Function, Instance, call, memory};
+use fmi_export::lifecycle::{self, Resources, Wish};
+use fmi_export::{CallError, Exported, Function, Instance, call};
 use fmi_model::Experiment;
 use fmi3_abi::{
     ClockUpdateCallback, FMI_VERSION, Fmi3Boolean, Fmi3Float64, Fmi3Instance, Fmi3InstanceEnvironment, Fmi3String,
@@ -64,12 +64,8 @@ pub unsafe fn instantiate_co_simulation<M: Exported<Fmi3>>(
             let count = required_count;
             return Err(Fmi3Error::NoIntermediateUpdate { count }.into());
         }
-        // SAFETY: not null, so a string; see the module.
-        let path = (!resource_path.is_null()).then(|| unsafe { memory::text("resourcePath", resource_path) });
-        Ok(path
-            .and_then(Result::ok)
-            .map(PathBuf::from)
-            .filter(|path| path.is_dir()))
+        // SAFETY: null or a string; see the module.
+        Ok(unsafe { Resources::read("resourcePath", resource_path, |path| Some(PathBuf::from(path))) })
     };
     // SAFETY: `name` and `token` are strings; see the module.
     unsafe { lifecycle::create::<Fmi3, M>(&order::INSTANTIATE_CO_SIMULATION, &sink, wish, resources) }

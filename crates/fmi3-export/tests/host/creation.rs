@@ -71,6 +71,8 @@ fn instantiate_says_why_not() {
         wrong.contains("instantiation token given is '{abc}'") && wrong.contains(&own_token()),
         "{wrong}"
     );
+    let needs = "resourcePath '/no/such/folder/' is no folder here; an FMU packed with a mission needs it";
+    assert!(wrong.contains(needs), "{wrong}");
     for (wish, part) in [
         (
             Wish {

@@ -21,7 +21,8 @@ pub struct Choice {
     pub scenario_index: i32,
     /// Path of a mission file, or the name, with or without `.toml`, of one that comes with the project; empty: none.
     pub mission_file: String,
-    /// The FMU's resources, where there are any.
+    /// The FMU's resources, where there are any. Those of this instance: a saved state has none.
+    #[serde(skip)]
     pub resources: Option<PathBuf>,
 }
 
