@@ -529,6 +529,31 @@ const XML: &[Edit] = &[
         "ModelStructure/Outputs/Unknown[1]",
     ),
     (
+        "<Unknown index=\"16\" dependencies=\"15\"/>",
+        "<Unknown index=\"16\" dependencies=\"15\" dependenciesKind=\"discrete\"/>",
+        "structure.kind-real",
+        "ModelStructure/Outputs/Unknown[3]",
+    ),
+    // Of InitialUnknowns, too.
+    (
+        "dependencies=\"13 15\"",
+        "dependencies=\"13 15\" dependenciesKind=\"dependent constant\"",
+        "structure.kind-real",
+        "ModelStructure/InitialUnknowns/Unknown[5]",
+    ),
+    (
+        "<Unknown index=\"16\" dependencies=\"15\"/>",
+        "<Unknown index=\"16\" dependencies=\"15\" dependenciesKind=\"dependent\"/>",
+        "nothing",
+        "",
+    ),
+    (
+        "<Unknown index=\"12\" dependencies=\"8\"/>\n      <Unknown index=\"16\"",
+        "<Unknown index=\"12\" dependencies=\"8 15\" dependenciesKind=\"constant tunable\"/>\n      <Unknown index=\"16\"",
+        "structure.kind-known",
+        "ModelStructure/Outputs/Unknown[2]",
+    ),
+    (
         "dependencies=\"6 8\" dependenciesKind",
         "dependenciesKind",
         "structure.kinds-alone",

@@ -221,6 +221,7 @@ fn dependencies(view: &View<'_>, node: &Node, known: &dyn Fn(&Scalar<'_>) -> boo
         let what = format!("{} dependencies have {kinds} kinds", indices.len());
         findings.at(node.line, &rules::KINDS, &node.path, what);
     }
+    factors(view, node, &indices, findings);
     let indices: Vec<u32> = indices.into_iter().flatten().collect();
     let mut seen = BTreeSet::new();
     for index in &indices {
@@ -247,5 +248,27 @@ fn dependencies(view: &View<'_>, node: &Node, known: &dyn Fn(&Scalar<'_>) -> boo
             &node.path,
             "dependencies are not sorted",
         );
+    }
+}
+
+/// Kinds other than dependent say that a known enters by a factor, which only Real numbers have.
+fn factors(view: &View<'_>, node: &Node, dependencies: &[Option<u32>], findings: &mut Findings) {
+    let other = |index: Option<u32>| {
+        let variable = view.at(index?)?;
+        variable.kind.is_some_and(|kind| kind != Kind::Real).then_some(variable)
+    };
+    let unknown = other(node.get("index").and_then(unsigned));
+    let kinds = node.get("dependenciesKind").unwrap_or_default().split_whitespace();
+    for (kind, dependency) in kinds.zip(dependencies) {
+        if !["constant", "fixed", "tunable", "discrete"].contains(&kind) {
+            continue;
+        }
+        if let Some(unknown) = unknown {
+            let what = format!("a dependency is {kind}, and {} is not Real", unknown.called());
+            findings.at(node.line, &rules::KIND_REAL, &node.path, what);
+        } else if let Some(known) = other(*dependency) {
+            let what = format!("the dependency on {} is {kind}, and it is not Real", known.called());
+            findings.at(node.line, &rules::KIND_KNOWN, &node.path, what);
+        }
     }
 }

@@ -11,7 +11,7 @@ rules! {
     DATE = "description.date", Note, "2.2.1", "generationDateAndTime is in UTC, marked by Z", "write it as 2026-01-31T12:00:00Z";
     TOOL = "description.tool", Note, "2.2.1", "generationTool says what made the FMU", "name the tool and its version";
     EVENTS = "description.events", Note, "2.2.1", "numberOfEventIndicators is for model exchange", "leave it out of an FMU for co-simulation only";
-    SERIALIZE = "description.serialize", Error, "4.3.1", "canSerializeFMUstate goes with canGetAndSetFMUstate", "set both or neither";
+    SERIALIZE = "description.serialize", Error, "4.3.1", "canSerializeFMUstate goes with canGetAndSetFMUstate", "set canGetAndSetFMUstate too, or neither";
     UNIT = "unit.duplicate", Error, "2.2.2", "units have different names", "keep one of them";
     DISPLAY_UNIT = "unit.display-duplicate", Error, "2.2.2", "display units of one unit have different names", "keep one of them";
     FACTOR = "unit.factor", Error, "2.2.2", "factors of units are finite and not zero", "write the factor to the SI unit";

@@ -18,5 +18,7 @@ rules! {
     DEPENDENCY_ORDER = "structure.dependency-order", Note, "2.2.8", "dependencies are in ascending order", "sort them";
     DEPENDENCY_KNOWN = "structure.dependency-known", Warning, "2.2.8", "dependencies are knowns: inputs, states and the independent variable, in InitialUnknowns also what has initial exact", "take it off the list";
     KINDS = "structure.kinds", Error, "2.2.8", "dependenciesKind has as many entries as dependencies", "write one kind for each dependency";
+    KIND_REAL = "structure.kind-real", Error, "2.2.8", "dependencies of an unknown that is not Real are of the kind dependent", "write dependent";
+    KIND_KNOWN = "structure.kind-known", Warning, "2.2.8", "dependencies on a known that is not Real are of the kind dependent", "write dependent: only a Real known can have a factor";
     KINDS_ALONE = "structure.kinds-alone", Error, "2.2.8", "dependenciesKind goes with dependencies", "add dependencies";
 }

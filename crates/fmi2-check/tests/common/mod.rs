@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -10,6 +11,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 use std::time::Duration;
 
+use expect_test::expect_file;
 use fmi2_check::{Finding, Findings, Running, Severity, check};
 
 pub const DESCRIPTION: &str = include_str!("../good/modelDescription.xml");
@@ -94,17 +96,24 @@ pub fn running() -> Running {
             program.arg("--trial");
             program
         }),
-        limit: Duration::from_secs(3),
+        // On a machine with much else to do, a trial of nothing but good calls may be kept waiting.
+        limit: Duration::from_secs(20),
         with_tool: false,
     }
 }
 
 /// What is found in files whose library is run.
 pub fn found_running(files: &Files) -> Findings {
+    found_within(files, running().limit)
+}
+
+/// The same, with this limit to each trial.
+pub fn found_within(files: &Files, limit: Duration) -> Findings {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("good.fmu");
     pack(files, &path);
-    check(&path, Some(&running())).unwrap()
+    let running = Running { limit, ..running() };
+    check(&path, Some(&running)).unwrap()
 }
 
 /// Whether a rule is broken by an element.
@@ -145,8 +154,42 @@ pub fn edited(edits: &[(&str, &str)]) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Prints, past the test runner's capture, how many defects were named.
+/// Prints, past the test runner's capture, how many defects were named, and holds the row of `docs/check.md` to it.
 pub fn score(what: &str, tried: usize, missed: &[String]) {
     let named = tried - missed.len();
     let _ = writeln!(std::io::stderr(), "mutation score of the {what}: {named} of {tried}");
+    // Which ones were missed is better told than that the document is another.
+    if !missed.is_empty() {
+        return;
+    }
+    let text = std::fs::read_to_string(CHECK_MD).unwrap();
+    let scores = scores(&text);
+    let begins = format!("| {what} |");
+    let others = scores.lines().skip(2).filter(|row| !row.starts_with(&begins));
+    let row = format!("{begins} {named} | {tried} |");
+    let rows: BTreeSet<&str> = others.chain([row.as_str()]).collect();
+    let table = rows.iter().fold(
+        "| defects of the | named | tried |\n|---|---|---|\n".to_owned(),
+        |table, row| table + row + "\n",
+    );
+    expect_file![CHECK_MD].assert_eq(&text.replace(&marked(scores), &marked(&table)));
+}
+
+const CHECK_MD: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/check.md");
+/// Around what [`score`] writes.
+const MARKS: (&str, &str) = ("<!-- mutation scores: begin -->\n", "<!-- mutation scores: end -->");
+
+fn marked(scores: &str) -> String {
+    format!("{}{scores}{}", MARKS.0, MARKS.1)
+}
+
+fn scores(text: &str) -> &str {
+    let begun = text.split_once(MARKS.0).map(|(_, rest)| rest);
+    begun.and_then(|rest| rest.split_once(MARKS.1)).unwrap().0
+}
+
+/// Holds `docs/check.md` to what the rules render, but for the scores.
+pub fn documented(rendered: &str) {
+    let text = std::fs::read_to_string(CHECK_MD).unwrap();
+    expect_file![CHECK_MD].assert_eq(&rendered.replace(&marked(""), &marked(scores(&text))));
 }
