@@ -1,20 +1,24 @@
 //! What a loop is closed with, through the FMUs: momentum of commands, and estimates that hold when they are used.
+//!
+//! The tables of `docs/closed_loop.md` are what is measured here; `UPDATE_EXPECT=1 cargo test --release --test closed_loop` rewrites them.
 
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
     reason = "what fails in a helper is a failed test"
 )]
-#![allow(clippy::print_stdout, reason = "the tables are shown with --nocapture")]
+#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 #![allow(clippy::float_cmp, reason = "what is handed on is handed on to the bit")]
 
 mod common;
 
 use common::fmi::{FROM_ZERO, bits, get, initialise, set, step};
 use common::fmu;
+use expect_test::expect_file;
 use fmi2_import::{Causality, Fmu, Instance, Value};
 use numerics::{Generator, Source, stream};
 use rand::Rng;
+use std::sync::{Mutex, PoisonError};
 
 const SCENARIOS: [&str; 3] = ["leo_venting", "nrho_venting", "formation"];
 
@@ -49,13 +53,28 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
+/// Holds the table between two marks of the document to what was measured.
+fn documented(mark: &str, heads: &[&str], rows: &[String]) {
+    // Tests of other tables may rewrite the document at the same time.
+    static DOCUMENT: Mutex<()> = Mutex::new(());
+    let _guard = DOCUMENT.lock().unwrap_or_else(PoisonError::into_inner);
+    let text = std::fs::read_to_string(common::root().join("docs/closed_loop.md")).unwrap();
+    let (begin, end) = (format!("<!-- {mark}: begin -->\n"), format!("<!-- {mark}: end -->"));
+    let (before, rest) = text.split_once(&begin).unwrap();
+    let (_, after) = rest.split_once(&end).unwrap();
+    let head = format!("| {} |\n|{}\n", heads.join(" | "), "---|".repeat(heads.len()));
+    let table = format!("{head}{}", rows.concat());
+    println!("{table}");
+    expect_file!["../docs/closed_loop.md"].assert_eq(&format!("{before}{begin}{table}{end}{after}"));
+}
+
 /// A pulse of 30 % a second, for ten seconds: whatever its phase and the step, a communication point at each of its edges.
 #[test]
 fn a_modulated_thrust_has_its_momentum() {
     let truth = Fmu::open(fmu("fmu-truth")).unwrap();
     // On a grid of 0.025 s.
     let edge = |time: f64| (time / 0.025).round() as i64;
-    println!("velocity gained over that commanded, by world, step [s] and phase [s]");
+    let mut rows = Vec::new();
     for scenario in SCENARIOS {
         let flown = |width: f64, phase: f64, stride: f64| {
             let quiet = [("scenario", scenario), ("vent.scale", "0")];
@@ -79,10 +98,10 @@ fn a_modulated_thrust_has_its_momentum() {
                 let gained = flown(0.3, 0.125 * f64::from(eighth), stride) - free;
                 gained / 0.03
             });
-            println!(
-                "{scenario:13} {stride:5}  {}",
-                shares.map(|s| format!("{s:.6}")).join(" ")
-            );
+            rows.push(format!(
+                "| `{scenario}` | {stride} | {} |\n",
+                shares.map(|s| format!("{s:.6}")).join(" | ")
+            ));
             // Gravity turns the 0.15 m gained into 1e-6 m/s.
             assert!(
                 shares.iter().all(|share| (share - 1.0).abs() < 1e-4),
@@ -90,6 +109,10 @@ fn a_modulated_thrust_has_its_momentum() {
             );
         }
     }
+    let phases = [0, 1, 2, 3, 4, 5, 6, 7].map(|eighth| format!("{} s", 0.125 * f64::from(eighth)));
+    let mut heads = vec!["mission", "step [s]"];
+    heads.extend(phases.iter().map(String::as_str));
+    documented("momentum", &heads, &rows);
 }
 
 /// The same sequence of time and value is the same run, bit for bit, and in other steps the same to 1e-9 m.
@@ -215,16 +238,16 @@ fn control_error(scenario: &str, jacobi: bool, h: f64, told: bool) -> [f64; 3] {
 
 #[test]
 fn predictions_hold_when_guidance_uses_them() {
-    println!(
-        "rms error of position when used, 300 to 1500 s [m]: est, pred (not told of the command), pred (told), own error at the sample"
-    );
+    let mut rows = Vec::new();
     for (scenario, late) in [("leo_venting", 3.0), ("nrho_venting", 3.0), ("formation", 5.0)] {
         for jacobi in [true, false] {
             for h in [1.0, 0.25] {
                 let [est, untold, own_untold] = control_error(scenario, jacobi, h, false);
                 let [_, pred, own] = control_error(scenario, jacobi, h, true);
                 let scheme = if jacobi { "Jacobi" } else { "Gauss-Seidel" };
-                println!("{scenario:13} {scheme:12} {h:4}  {est:9.5} {untold:9.5} {pred:9.5} {own:9.5}");
+                rows.push(format!(
+                    "| `{scenario}` | {scheme} | {h} | {est:.5} | {untold:.5} | {pred:.5} | {own:.5} |\n"
+                ));
                 // No worse than the filter itself.
                 assert!(pred < 1.15 * own, "{scenario}, {scheme}, {h} s: {pred} of {own}");
                 // Where nothing feels the thrust, one who is not told is worse. What telling is worth elsewhere has a test of its own.
@@ -240,6 +263,16 @@ fn predictions_hold_when_guidance_uses_them() {
             }
         }
     }
+    let heads = [
+        "mission",
+        "master",
+        "step [s]",
+        "`est`, before [m]",
+        "`pred`, untold [m]",
+        "`pred`, told [m]",
+        "own [m]",
+    ];
+    documented("errors", &heads, &rows);
 }
 
 /// What is done to a chaser, axes N.
