@@ -86,3 +86,24 @@ fn a_closed_loop_of_four_fmus_holds_its_point() {
             .all(|r| r["filter"] == "snc" && r["failed"] == "0" && r["diverged"] == "0")
     );
 }
+
+/// Whether a master adds its steps up or multiplies them, no cycle of the thrusters is missed or planned twice.
+#[test]
+fn guidance_plans_every_cycle_once() {
+    let ran = Command::new("python3")
+        .arg(root().join("tests/examples/cycles.py"))
+        .arg(root().join("examples/05_closed_loop"))
+        // Nothing is left beside the example.
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .output();
+    let Ok(output) = ran else {
+        skipped("cycles of guidance", "python3");
+        return;
+    };
+    let (shown, error) = (
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr),
+    );
+    assert!(output.status.success(), "{shown}{error}");
+    assert_eq!(shown.lines().count(), 12, "{shown}");
+}

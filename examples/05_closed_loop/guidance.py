@@ -11,6 +11,8 @@ from pulse import register, share
 from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability
 
 AXES = range(3)
+# Part of a cycle by which times may be off: much less than any step, and more than a sum of steps rounds in hours.
+ROUNDING = 1e-6
 
 
 def dot(a, b):
@@ -64,15 +66,18 @@ class Guidance(Fmi2Slave):
         self.origin = None
         # Of the cycle in hand: when it begins, seconds of fire by axis with sign, and what was too little to fire, m/s.
         self.begins, self.fire, self.kept = 0.0, [0.0] * 3, [0.0] * 3
+        # Cycles that have begun since time 0; None before the first step.
+        self.cycles = None
 
     def do_step(self, current_time, step_size):
         # What is said now acts from the end of this step on, in a Gauss-Seidel and in a Jacobi master.
         acts = current_time + step_size
-        if acts < self.start[0]:
+        before = self.begun(current_time) if self.cycles is None else self.cycles
+        self.cycles = self.begun(acts)
+        if acts < self.start[0] - ROUNDING * self.cycle[0]:
             return True
         frame, rate, rho, rho_dot = self.relative(acts)
-        new_cycle = acts - floor(acts / self.cycle[0]) * self.cycle[0] < 0.5 * step_size
-        if new_cycle:
+        if self.cycles > before:
             self.plan(acts, rate, rho, rho_dot)
         strength = [
             copysign(self.thrust[0], self.fire[i])
@@ -82,6 +87,10 @@ class Guidance(Fmi2Slave):
         self.dv[0] += sum(map(abs, strength)) * step_size
         self.a_cmd[:] = [dot(strength, [axis[i] for axis in frame]) for i in AXES]
         return True
+
+    def begun(self, time):
+        """Cycles that have begun by a time. They are counted, so that none is missed whatever the times of a master add up to."""
+        return floor(time / self.cycle[0] + ROUNDING)
 
     def relative(self, acts):
         """Axes and rate of the target's LVLH frame, place and velocity of the chaser in it, when the command acts."""
