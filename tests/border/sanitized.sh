@@ -11,7 +11,7 @@ fi
 # A sanitizer asks for a switch that a stable compiler has and keeps for itself; with a target named, what runs while it compiles
 # is built without.
 CARGO_BUILD_TARGET=$(rustc -vV | sed -n 's/^host: //p')
-export CARGO_BUILD_TARGET RUSTC_BOOTSTRAP=1 RUSTFLAGS=-Zsanitizer=address CARGO_TARGET_DIR="$PWD/target/sanitized"
+export CARGO_BUILD_TARGET RUSTC_BOOTSTRAP=1 RUSTFLAGS="-Zsanitizer=address -Clink-arg=-Wl,--export-dynamic" CARGO_TARGET_DIR="$PWD/target/sanitized"
 # Leaks are looked for by valgrind and counted by the ordinary test.
 ASAN_OPTIONS=detect_leaks=0 BORDER_PERCENT=${PERCENT:-100} \
     cargo test --release --test border a_million_hostile_calls -- --nocapture
