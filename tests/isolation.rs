@@ -123,13 +123,15 @@ fn whatever_a_filter_does_costs_its_own_runs_alone() {
     for (deed, says) in deeds {
         let out = folder.path().join(format!("deed{deed}"));
         let (filter, set) = (format!("nasty={}", text(&fmu)), format!("nasty.deed={deed}"));
+        // Short for those that never come back; the others, and ours, may be kept waiting by the machine.
+        let limit = if matches!(deed, 4 | 5) { "2" } else { "60" };
         let more = [
             "--nav",
             &filter,
             "--set",
             &set,
             "--call-limit",
-            "2",
+            limit,
             "--memory-limit",
             "512",
             "--out",
