@@ -5,7 +5,7 @@
 mod common;
 
 use common::{harness_ok, read_csv, root, skipped};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use trade_harness::pack;
 
@@ -85,25 +85,35 @@ fn a_closed_loop_of_four_fmus_holds_its_point() {
         rows.iter()
             .all(|r| r["filter"] == "snc" && r["failed"] == "0" && r["diverged"] == "0")
     );
+    let python = root().join("target/closed_loop/venv/bin/python");
+    let arguments = [root().join("examples/05_closed_loop"), folder.path().to_owned()];
+    let shown = python_script(&python, "by_ssp.py", &arguments).unwrap();
+    assert!(shown.contains("46 of 46 cycles"), "{shown}");
+}
+
+/// Runs a script of `tests/examples`; what it printed, or nothing without this Python.
+fn python_script(python: &Path, name: &str, arguments: &[PathBuf]) -> Option<String> {
+    let ran = Command::new(python)
+        .arg(root().join("tests/examples").join(name))
+        .args(arguments)
+        // Nothing is left beside the example.
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .output();
+    let output = ran.ok()?;
+    let (shown, error) = (
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr),
+    );
+    assert!(output.status.success(), "{name}: {shown}{error}");
+    Some(shown.into_owned())
 }
 
 /// Whether a master adds its steps up or multiplies them, no cycle of the thrusters is missed or planned twice.
 #[test]
 fn guidance_plans_every_cycle_once() {
-    let ran = Command::new("python3")
-        .arg(root().join("tests/examples/cycles.py"))
-        .arg(root().join("examples/05_closed_loop"))
-        // Nothing is left beside the example.
-        .env("PYTHONDONTWRITEBYTECODE", "1")
-        .output();
-    let Ok(output) = ran else {
-        skipped("cycles of guidance", "python3");
-        return;
-    };
-    let (shown, error) = (
-        String::from_utf8_lossy(&output.stdout),
-        String::from_utf8_lossy(&output.stderr),
-    );
-    assert!(output.status.success(), "{shown}{error}");
-    assert_eq!(shown.lines().count(), 12, "{shown}");
+    let example = root().join("examples/05_closed_loop");
+    match python_script(Path::new("python3"), "cycles.py", &[example]) {
+        Some(shown) => assert_eq!(shown.lines().count(), 12, "{shown}"),
+        None => skipped("cycles of guidance", "python3"),
+    }
 }

@@ -3,10 +3,10 @@
 use crate::commands::Commands;
 use crate::error::FilterError;
 use crate::innovation::Innovation;
-use crate::laws::{Adaptation, Step};
+use crate::laws::{Adaptation, Step, positive};
 use crate::sample::Sample;
 use crate::state::{State, TargetMatrix};
-use nalgebra::{SMatrix, SVector, Vector6};
+use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 
 /// Mean, covariance and standard deviations, SI, as in [`crate::Estimate`].
 pub(crate) struct Reported {
@@ -122,12 +122,14 @@ pub(super) fn defect<const D: usize>(x: &SVector<f64, D>, p: &SMatrix<f64, D, D>
 ///
 /// * `p`: the estimator's own, D x D, internal units; `since`: as in [`Estimator::report`].
 pub(super) fn stand_in<const D: usize>(p: &mut SMatrix<f64, D, D>, law: &dyn Adaptation, since: Option<&TargetMatrix>) {
-    let mut own = p.fixed_view_mut::<6, 6>(0, 0);
+    let mut block = p.fixed_view_mut::<6, 6>(0, 0);
+    let own: Matrix6<f64> = block.clone_owned();
     match (law.replacement(), since) {
-        (Some(said), None) => own.copy_from(&said.p),
+        (Some(said), None) => block.copy_from(&positive(said.p, &own)),
         (Some(_), Some(f)) => {
             if let Some(excess) = law.excess(&f.fixed_view::<6, 6>(0, 0).into_owned()) {
-                own += excess;
+                // The estimator's own may have walked much further than the law says.
+                block.copy_from(&positive(own + excess, &own));
             }
         }
         (None, _) => (),

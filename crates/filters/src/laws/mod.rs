@@ -31,6 +31,7 @@ mod window;
 
 pub use adaptation::{Adaptation, Hindsight, Setup, Step};
 pub use bank::Replacement;
+pub(crate) use bank::positive;
 pub use entry::{FilterEntry, Motion, Search, Update};
 pub use registry::{FILTERS, Law};
 

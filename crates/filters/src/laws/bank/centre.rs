@@ -1,21 +1,15 @@
 //! The estimator's own mean and covariance, as the members see them.
 
+use super::covariance::as_covariance;
 use super::member::Member;
 use super::mixture::{Moments, Replacement};
 use super::rows::Seen;
 use crate::jerk;
 use crate::laws::Step;
 use crate::state::{RowVector, TargetMatrix};
-use nalgebra::{Matrix6, SMatrix, SVector, SymmetricEigen, Vector6};
+use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use numerics::spd;
 use serde::{Deserialize, Serialize};
-
-/// What rounding leaves of the difference of two covariances, of their size.
-const ROUNDING: f64 = 1e-12;
-/// What may be added to the variances instead of a search for the nearest covariance, of their size: a sample adds more.
-const LIFTS: [f64; 3] = [1e-9, 1e-8, 1e-7];
-/// Most steps in search of six eigenvalues.
-const EIGEN_STEPS: usize = 200;
 
 /// The centre between two samples.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -140,31 +134,6 @@ fn predicted(prior: Matrix6<f64>, seen: &Seen) -> (f64, RowVector) {
     (nis, variance)
 }
 
-/// What was found as a difference of covariances, made one that can be added to any: where rounding, or news of the
-/// accelerometer's bias on the way, has left it none, one with a little more of the variances of what it is a part of; where that is
-/// not enough, the nearest one in units of its deviations.
-fn as_covariance(found: Matrix6<f64>, of: &Matrix6<f64>) -> Matrix6<f64> {
-    let variances = of.diagonal();
-    let lifted = |by: f64| found + Matrix6::from_diagonal(&(variances * by));
-    if lifted(ROUNDING).cholesky().is_some() {
-        return found;
-    }
-    let least = LIFTS.into_iter().map(lifted).find(|lifted| lifted.cholesky().is_some());
-    if let Some(covariance) = least {
-        return covariance;
-    }
-    let deviations = variances.map(f64::sqrt);
-    let scales = deviations * deviations.transpose();
-    let scaled = spd::symmetrised(&found.component_div(&scales));
-    match SymmetricEigen::try_new(scaled, f64::EPSILON, EIGEN_STEPS) {
-        Some(mut eigen) => {
-            eigen.eigenvalues.apply(|value| *value = value.max(0.0));
-            eigen.recompose().component_mul(&scales)
-        }
-        None => Matrix6::from_diagonal(&found.diagonal().map(|v| v.max(0.0))),
-    }
-}
-
 impl Shared {
     /// A step in which the centre stays where it is.
     #[cfg(test)]
@@ -252,22 +221,6 @@ pub(in crate::laws) fn white(density: f64, dt: f64) -> Matrix6<f64> {
 mod tests {
     use super::*;
     use nalgebra::{SMatrix, Vector3};
-
-    /// A difference that is a covariance stays as it is; of one that is none, what is negative goes, in units of the deviations: the
-    /// rest keeps its correlations.
-    #[test]
-    fn a_difference_becomes_a_covariance_and_loses_no_more_than_it_must() {
-        let scale = Vector6::new(1e3, 1e3, 1e3, 1e-3, 1e-3, 1e-3);
-        let of = Matrix6::from_diagonal(&scale.component_mul(&scale));
-        let along = Vector6::new(1.0, 0.5, 0.0, 0.3, 0.0, 0.0).component_mul(&scale);
-        let found = along * along.transpose() * 0.01;
-        assert_eq!(as_covariance(found, &of), found);
-        // Perpendicular to it in units of the deviations.
-        let across = Vector6::new(0.0, 0.0, 1.0, 0.0, 1.0, 0.0).component_mul(&scale);
-        let spoilt = found - across * across.transpose() * 1e-4;
-        let difference = (as_covariance(spoilt, &of) - found).component_div(&(scale * scale.transpose()));
-        assert!(difference.amax() < 1e-15, "{difference}");
-    }
 
     /// A start whose velocity is known to 1e-8, and a bank whose loudest member walks by 0.1: the quiet member must still know it.
     #[test]

@@ -1,5 +1,6 @@
 //! Mean and covariance of a mixture.
 
+use super::covariance::positive;
 use crate::error::FilterError;
 use crate::state::RowVector;
 use nalgebra::{Matrix6, Vector6};
@@ -29,6 +30,9 @@ impl Replacement {
         negative.map(|i| FilterError::NegativeVariance { t_s, state: i + 1 })
     }
 }
+
+/// Share of a second moment that is so little that rounding counts in it.
+const LITTLE: f64 = 1e-8;
 
 /// Mean and covariance of a mixture; internal units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,12 +68,15 @@ impl Mixture {
     /// Mean and covariance of all of it.
     pub(in crate::laws) fn moments(&self) -> Moments {
         let mean = self.first / self.weight;
-        let mut p = self.second / self.weight;
+        let second = self.second / self.weight;
+        let mut p = second;
         p.ger(-1.0, &mean, &mean, 1.0);
-        Moments {
-            mean,
-            p: spd::symmetrised(&p),
+        let mut p = spd::symmetrised(&p);
+        // Far from zero, the means take the digits of the covariance with them.
+        if (0..6).any(|i| p[(i, i)] < LITTLE * second[(i, i)]) {
+            p = positive(p, &second);
         }
+        Moments { mean, p }
     }
 }
 

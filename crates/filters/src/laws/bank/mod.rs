@@ -9,6 +9,7 @@
 //! Everything is linear in the deviations; they are a few standard deviations long, over which the slopes hold.
 
 mod centre;
+mod covariance;
 mod member;
 mod mixture;
 mod rows;
@@ -16,6 +17,7 @@ mod weights;
 
 pub(super) mod velocity_change;
 
+pub(crate) use covariance::positive;
 pub use mixture::Replacement;
 
 pub(super) use centre::{Centre, Shared, white};
