@@ -218,10 +218,8 @@ fn a_named_locale_of_the_host_stays() {
     let _alone = alone();
     let set = |name: &CStr| {
         // SAFETY: a NUL-terminated name.
-        assert!(
-            !unsafe { libc::setlocale(libc::LC_ALL, name.as_ptr()) }.is_null(),
-            "{name:?}"
-        );
+        let set = unsafe { libc::setlocale(libc::LC_ALL, name.as_ptr()) };
+        assert!(!set.is_null(), "{name:?}");
         World::now(&[]).locale
     };
     for place in ["AT_GET", "AT_STEP=0"] {
