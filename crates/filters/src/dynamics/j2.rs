@@ -1,7 +1,7 @@
 //! Nonlinear relative motion with J2, about the target's orbit as it is handed over with each sample.
 
 use super::acceleration::AccelerationModel;
-use super::decay::{Answer, is_slow};
+use super::decay::{self, Answer, Dying, is_slow};
 use super::relative::{RelativeMotion, part, transition};
 use crate::error::FilterError;
 use crate::state::{Target, TargetMatrix};
@@ -20,26 +20,19 @@ pub(crate) struct J2 {
 }
 
 impl J2 {
-    /// Mean after `dt` where d dies away within a step: what it does to rho is taken out, and the rest, which is smooth, goes by
-    /// the Runge-Kutta step.
+    /// Mean after `dt` where d dies away within a step.
     fn step_dying(&self, x: &Target, dt: f64, orbit: &mut TargetOrbit, decay: f64) -> Target {
         let d = part(x, 6);
         // Relative state, then the orbit, which d leaves alone.
-        let taken_out = |t: f64| {
-            let answer = Answer::after(t, decay);
-            let mut out = SVector::<f64, 12>::zeros();
-            out.fixed_rows_mut::<3>(0).copy_from(&(d * answer.position));
-            out.fixed_rows_mut::<3>(3).copy_from(&(d * answer.velocity));
-            out
-        };
         let mut start = SVector::<f64, 12>::zeros();
         start.fixed_rows_mut::<6>(0).copy_from(&x.fixed_rows::<6>(0));
         start.fixed_rows_mut::<6>(6).copy_from(&orbit.to_vector());
-        let end = rk4::step(0.0, &start, dt, |t, y| {
-            let mut dy = self.model.rate(&(y + taken_out(t)));
-            dy.fixed_rows_mut::<3>(0).copy_from(&y.fixed_rows::<3>(3));
-            dy
-        }) + taken_out(dt);
+        let dying = Dying {
+            row: 0,
+            start: d,
+            rate: decay,
+        };
+        let end = decay::step(&start, dt, &[dying], |y| self.model.rate(y));
         *orbit = TargetOrbit::from_vector(&end.fixed_rows::<6>(6).into_owned());
         let mut out = Target::zeros();
         out.fixed_rows_mut::<6>(0).copy_from(&end.fixed_rows::<6>(0));

@@ -1,6 +1,6 @@
 //! Both vehicles in axes N under gravity, with an accelerometer in the chaser: 18 states (Mamich and Zanetti).
 
-use super::decay::{Answer, is_slow};
+use super::decay::{self, Answer, Dying, is_slow};
 use super::transition::{Flow, Transition};
 use crate::disturbance::Disturbance;
 use crate::gravity::Gravity;
@@ -98,42 +98,30 @@ impl TwoVehicles {
         out
     }
 
-    /// The same where a_t or b_c die away within a step: what they do to each vehicle is taken out, and the rest, which is smooth,
-    /// goes by the Runge-Kutta step.
+    /// The same where a_t or b_c die away within a step.
     fn propagate_dying(&self, x: &State, dt: f64, drive: &Drive) -> State {
         let (a_t, b_c) = (part(x, idx::A_T), part(x, idx::B_C));
         let (felt, by_bias) = drive.thrust.as_ref().map_or_else(Default::default, |thrust| {
             (thrust.dcm_n_bc * thrust.alpha_c_bc, thrust.dcm_n_bc * -b_c)
         });
-        let thirds = [(a_t, self.acceleration_decay), (by_bias, self.beta)];
-        // What of both vehicles goes by the answers after t: r, v, r, v.
-        let taken_out = |t: f64| {
-            let mut out = SVector::<f64, 12>::zeros();
-            for (vehicle, (start, rate)) in thirds.iter().enumerate() {
-                let answer = Answer::after(t, *rate);
-                let mut of = out.fixed_rows_mut::<6>(6 * vehicle);
-                of.fixed_rows_mut::<3>(0).copy_from(&(start * answer.position));
-                of.fixed_rows_mut::<3>(3).copy_from(&(start * answer.velocity));
-            }
-            out
-        };
+        // Both vehicles: r, v, r, v.
+        let dying = [(0, a_t, self.acceleration_decay), (6, by_bias, self.beta)];
+        let dying = dying.map(|(row, start, rate)| Dying { row, start, rate });
         let by_forces = [drive.told_t_n, felt + drive.told_c_n];
         let mut start = SVector::<f64, 12>::zeros();
         let chaser = x.fixed_rows::<6>(idx::R_C.start);
         start.fixed_rows_mut::<6>(0).copy_from(&(x.fixed_rows::<6>(0) + chaser));
         start.fixed_rows_mut::<6>(6).copy_from(&chaser);
-        let end = rk4::step(0.0, &start, dt, |t, y| {
-            let whole = y + taken_out(t);
+        let end = decay::step(&start, dt, &dying, |y| {
             let mut dy = SVector::<f64, 12>::zeros();
             for (vehicle, driven) in by_forces.iter().enumerate() {
-                let at = |row: usize| whole.fixed_rows::<3>(6 * vehicle + row).into_owned();
+                let at = |row: usize| y.fixed_rows::<3>(6 * vehicle + row).into_owned();
                 let pulled = self.gravity.acceleration(&at(0), &at(3)) + driven;
-                let mut of = dy.fixed_rows_mut::<6>(6 * vehicle);
-                of.fixed_rows_mut::<3>(0).copy_from(&y.fixed_rows::<3>(6 * vehicle + 3));
-                of.fixed_rows_mut::<3>(3).copy_from(&pulled);
+                dy.fixed_rows_mut::<3>(6 * vehicle).copy_from(&at(3));
+                dy.fixed_rows_mut::<3>(6 * vehicle + 3).copy_from(&pulled);
             }
             dy
-        }) + taken_out(dt);
+        });
         let mut out = State::zeros();
         let chaser = end.fixed_rows::<6>(6);
         out.fixed_rows_mut::<6>(0).copy_from(&(end.fixed_rows::<6>(0) - chaser));

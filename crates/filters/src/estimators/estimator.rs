@@ -122,16 +122,16 @@ pub(super) fn defect<const D: usize>(x: &SVector<f64, D>, p: &SMatrix<f64, D, D>
 ///
 /// * `p`: the estimator's own, D x D, internal units; `since`: as in [`Estimator::report`].
 pub(super) fn stand_in<const D: usize>(p: &mut SMatrix<f64, D, D>, law: &dyn Adaptation, since: Option<&TargetMatrix>) {
+    let Some(said) = law.replacement() else { return };
     let mut block = p.fixed_view_mut::<6, 6>(0, 0);
     let own: Matrix6<f64> = block.clone_owned();
-    match (law.replacement(), since) {
-        (Some(said), None) => block.copy_from(&positive(said.p, &own)),
-        (Some(_), Some(f)) => {
-            if let Some(excess) = law.excess(&f.fixed_view::<6, 6>(0, 0).into_owned()) {
-                // The estimator's own may have walked much further than the law says.
-                block.copy_from(&positive(own + excess, &own));
-            }
-        }
-        (None, _) => (),
-    }
+    let stands = match since {
+        None => said.p,
+        Some(f) => match law.excess(&f.fixed_view::<6, 6>(0, 0).into_owned()) {
+            // The estimator's own may have walked much further than the law says.
+            Some(excess) => own + excess,
+            None => return,
+        },
+    };
+    block.copy_from(&positive(stands, &own));
 }

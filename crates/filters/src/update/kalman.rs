@@ -102,7 +102,7 @@ pub fn update<const M: usize, const D: usize>(
     let mut k = spd::over(&u, factor.l_dirty());
     k.rows_range_mut(consider).fill(0.0);
     est.x += k * m.innovation;
-    let rounding = spread_of_rounding(&est.p, &s, &m.r);
+    let rounding = spread_of_rounding(&est.p, (0..M).map(|i| (m.r[i], s[(i, i)])));
     // (I - K H) P (I - K H)^T + K R K^T as P - K U^T - (U - K S) K^T, with U = P H^T: no product of D^3. What stands in brackets
     // is zero but for rounding, and but for the consider states.
     let rest = u - k * s;
@@ -110,33 +110,32 @@ pub fn update<const M: usize, const D: usize>(
     take(&mut est.p, &rest, &k);
     spd::mirror(&mut est.p);
     if let Some(rounding) = rounding {
-        for (i, variance) in rounding.iter().enumerate() {
-            est.p[(i, i)] += variance;
-        }
+        add_variances(&mut est.p, &rounding);
     }
     Ok(Innovated { s, factor })
 }
 
-/// Variances by which an update's rounding may be off, where it is no longer small beside what is left: a measurement that is worth
-/// so much more than what was known takes the digits of a variance with it, and leaves a matrix that is the covariance of nothing.
-fn spread_of_rounding<const M: usize, const D: usize>(
+/// Variances by which rounding may be off in an update of P, D x D, where that is no longer small beside what is left: a measurement
+/// that is worth so much more than what was known takes the digits of a variance with it, and leaves a matrix that is the covariance of
+/// nothing.
+///
+/// * `rows`: variances of the noise and of the innovation of each row.
+pub(crate) fn spread_of_rounding<const D: usize>(
     p: &SMatrix<f64, D, D>,
-    s: &SMatrix<f64, M, M>,
-    r: &SVector<f64, M>,
+    mut rows: impl Iterator<Item = (f64, f64)>,
 ) -> Option<SVector<f64, D>> {
-    let lost = (0..M).any(|i| takes_digits(r[i], s[(i, i)]));
+    /// A unit of the last place for each measurement, of which few filters take more than these.
+    const ROUNDING: f64 = 16.0 * f64::EPSILON;
+    // Rounding is then a millionth of what is left.
+    let lost = rows.any(|(noise, innovation)| noise < 1e6 * ROUNDING * innovation);
     lost.then(|| p.diagonal() * ROUNDING)
 }
 
-/// What rounding leaves of a variance that an update reduces, as a share of it: a unit of the last place for each measurement, of which
-/// few filters take more than these.
-pub(crate) const ROUNDING: f64 = 16.0 * f64::EPSILON;
-
-/// Whether a row takes so many digits of the variances with it that [`ROUNDING`] is a millionth of what is left.
-///
-/// * `r`: variance of its noise; `s`: of its innovation.
-pub(crate) fn takes_digits(r: f64, s: f64) -> bool {
-    r < 1e6 * ROUNDING * s
+/// Adds to the variances of P, D x D.
+pub(crate) fn add_variances<const D: usize>(p: &mut SMatrix<f64, D, D>, variances: &SVector<f64, D>) {
+    for (i, variance) in variances.iter().enumerate() {
+        p[(i, i)] += variance;
+    }
 }
 
 /// P H^T, D x M, from the entries of H that are not zero: three of a range, eighteen at most.

@@ -1,7 +1,7 @@
 //! One filter of a bank.
 
 use super::rows::{Row, Seen};
-use crate::update::kalman::{ROUNDING, takes_digits};
+use crate::update::kalman::{add_variances, spread_of_rounding};
 use nalgebra::{Matrix6, SMatrix, SVector};
 use numerics::{math, spd};
 use serde::{Deserialize, Serialize};
@@ -74,10 +74,10 @@ impl<const D: usize> Member<D> {
         let innovation = row.innovation - (row.h * self.dx.fixed_rows::<6>(0))[0];
         let gain = ph / s;
         self.dx += gain * innovation;
-        let rounding = takes_digits(row.r, s).then(|| self.p.diagonal() * ROUNDING);
+        let rounding = spread_of_rounding(&self.p, std::iter::once((row.r, s)));
         self.p.ger(-1.0, &gain, &ph, 1.0);
         if let Some(rounding) = rounding {
-            self.p += SMatrix::from_diagonal(&rounding);
+            add_variances(&mut self.p, &rounding);
         }
         Taken { gain, innovation, s }
     }
