@@ -9,10 +9,13 @@
 mod model;
 mod slave;
 #[cfg(test)]
+#[path = "../../tests/one_slave/mod.rs"]
 mod tests;
 mod variables;
 
 use slave::NavModel;
+#[cfg(test)]
+use slave::NavModel as Slave;
 
 // One library with both interfaces: they step the same code, so a run has the same bits in either.
 fmi2_export::export_fmu!(NavModel);

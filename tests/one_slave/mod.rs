@@ -1,13 +1,18 @@
-//! What either slave must do as an instance: states that hold no place of this machine, and missions that leave nothing behind.
+//! What either slave must do: the committed descriptions, states that hold no place of this machine, missions that leave nothing
+//! behind. A module of both crates, each of which names its own [`Slave`].
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
 
 use std::fs;
+use std::path::Path;
 
-use fmi_model::{Instance, Log, Model, Phase, Seal, Snapshot};
+use super::Slave;
+use fmi_model::{Log, Model, Phase, Seal, Snapshot};
 use interface::mission::{EMBEDDED, PACKED, SHIPPED};
 use tempfile::TempDir;
 use uuid::Uuid;
+
+type Instance = fmi_model::Instance<Slave>;
 
 const SEAL: Seal = Seal {
     magic: *b"in tests",
@@ -15,12 +20,12 @@ const SEAL: Seal = Seal {
     guid: Uuid::nil(),
 };
 
-fn bytes<M: Model>(slave: &Instance<M>) -> Vec<u8> {
+fn bytes(slave: &Instance) -> Vec<u8> {
     slave.state().to_bytes(&SEAL).unwrap()
 }
 
-fn choose<M: Model>(slave: &mut Instance<M>, mission: &str) {
-    let row = M::table().find("mission_file").unwrap();
+fn choose(slave: &mut Instance, mission: &str) {
+    let row = Slave::table().find("mission_file").unwrap();
     slave.set(&[row], |_| mission.to_owned()).unwrap();
 }
 
@@ -35,8 +40,8 @@ fn resources(name: &str) -> TempDir {
 }
 
 /// An instance in this phase that runs `mission` of its resources.
-fn reached<M: Model>(phase: Phase, folder: &TempDir, mission: &str) -> Instance<M> {
-    let mut slave = Instance::<M>::with_resources(folder.path().to_owned());
+fn reached(phase: Phase, folder: &TempDir, mission: &str) -> Instance {
+    let mut slave = Instance::with_resources(folder.path().to_owned());
     choose(&mut slave, mission);
     if phase != Phase::Instantiated {
         slave.enter_initialization(&mut Log::silent()).unwrap();
@@ -51,26 +56,37 @@ fn reached<M: Model>(phase: Phase, folder: &TempDir, mission: &str) -> Instance<
 
 const PHASES: [Phase; 3] = [Phase::Instantiated, Phase::Initialization, Phase::StepComplete];
 
-pub fn equal_instances_have_equal_states_wherever_their_resources_are<M: Model>() {
+#[test]
+fn model_descriptions_are_the_committed_ones() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../modelDescription")
+        .join(env!("CARGO_PKG_NAME"));
+    fmi2_export::golden_check::<Slave>(&folder.join("modelDescription.xml")).unwrap();
+    fmi3_export::golden_check::<Slave>(&folder.join("fmi3/modelDescription.xml")).unwrap();
+}
+
+#[test]
+fn equal_instances_have_equal_states_wherever_their_resources_are() {
     let (here, there) = (resources("same"), resources("same"));
     for phase in PHASES {
         for mission in ["", "own.toml"] {
-            let state = bytes(&reached::<M>(phase, &here, mission));
-            assert_eq!(state, bytes(&reached::<M>(phase, &there, mission)), "{phase} {mission}");
+            let state = bytes(&reached(phase, &here, mission));
+            assert_eq!(state, bytes(&reached(phase, &there, mission)), "{phase} {mission}");
             let path = here.path().to_str().unwrap().as_bytes();
             assert!(!state.windows(path.len()).any(|part| part == path), "{phase} {mission}");
         }
     }
 }
 
-pub fn a_state_finds_the_missions_of_the_instance_that_it_is_set_on<M: Model>() {
+#[test]
+fn a_state_finds_the_missions_of_the_instance_that_it_is_set_on() {
     let (here, there) = (resources("here"), resources("there"));
     for phase in [Phase::Instantiated, Phase::Initialization] {
         for mission in ["", "own.toml"] {
-            let from = reached::<M>(phase, &here, mission);
+            let from = reached(phase, &here, mission);
             let read = Snapshot::from_bytes(&bytes(&from), &SEAL).unwrap();
             for state in [from.state().clone(), read] {
-                let begun = |mut slave: Instance<M>| {
+                let begun = |mut slave: Instance| {
                     slave.set_state(state.clone());
                     if phase == Phase::Instantiated {
                         slave.enter_initialization(&mut Log::silent())?;
@@ -81,13 +97,13 @@ pub fn a_state_finds_the_missions_of_the_instance_that_it_is_set_on<M: Model>() 
                 };
                 let with = |folder: &TempDir| Instance::with_resources(folder.path().to_owned());
                 for folder in [&here, &there] {
-                    let fresh = bytes(&reached::<M>(Phase::StepComplete, folder, mission));
+                    let fresh = bytes(&reached(Phase::StepComplete, folder, mission));
                     assert!(begun(with(folder)).unwrap() == fresh, "{phase} {mission}");
                 }
                 // Where the instance has none there is no such file, and the first scenario is that of the library.
                 match begun(Instance::new()) {
                     Ok(state) if mission.is_empty() => {
-                        let mut first = Instance::<M>::new();
+                        let mut first = Instance::new();
                         first.enter_initialization(&mut Log::silent()).unwrap();
                         choose(&mut first, mission);
                         first.exit_initialization(&mut Log::silent()).unwrap();
@@ -102,9 +118,10 @@ pub fn a_state_finds_the_missions_of_the_instance_that_it_is_set_on<M: Model>() 
 }
 
 /// A model initialises from its variables alone: nothing of a mission that was chosen before stays.
-pub fn a_mission_leaves_nothing_to_the_next<M: Model>() {
+#[test]
+fn a_mission_leaves_nothing_to_the_next() {
     let begun = |missions: &[&str]| {
-        let mut slave = Instance::<M>::new();
+        let mut slave = Instance::new();
         choose(&mut slave, missions[0]);
         slave.enter_initialization(&mut Log::silent()).unwrap();
         for mission in &missions[1..] {
