@@ -9,12 +9,11 @@ use super::kept::{KEPT, Kept, shard_folder};
 use super::out::Out;
 use super::progress::{run_watched, shard_watched};
 use super::recorded::Recorded;
-use super::shared::{Verdict, cast, end_when_asked, models, note, plan_of, scratch};
+use super::shared::{Verdict, cast, end_when_asked, held, models, note, plan_of, scratch};
 use super::worker;
 use crate::HarnessError;
 use crate::cli::CompareArgs;
 use crate::format::json_bytes;
-use crate::requirements;
 use crate::store::{Claim, StudyFolder, identity};
 use crate::structure::{Told, read};
 
@@ -103,18 +102,7 @@ pub(super) fn carry_out(plan: &Plan, models: &Models, way: &Way, out: &mut Out<'
         if judged.is_some_and(|judged| judged.requirements != plan.requirements) {
             return Err(HarnessError::OtherRequirements { path: place });
         }
-        let missed = requirements::missed_in(&place)?;
-        let told = if missed == 0 {
-            String::new()
-        } else {
-            format!("; it misses {missed} of its requirements")
-        };
-        out.say(&format!("{} holds this study, complete{told}", place.display()))?;
-        return Ok(if missed == 0 {
-            Verdict::Done
-        } else {
-            Verdict::BoundsMissed
-        });
+        return held(&place, "", out);
     }
     let folder = StudyFolder::claim(&place, &identity, way.claim)?;
     let studies = cast(plan, models, folder.output().path())?;

@@ -9,10 +9,9 @@ use super::finished::{Finished, finish};
 use super::kept::{KEPT, Kept, SHARDS};
 use super::out::Out;
 use super::progress::run_watched;
-use super::shared::{Verdict, cast, scratch};
+use super::shared::{Verdict, cast, held, scratch};
 use crate::HarnessError;
 use crate::cli::MergeArgs;
-use crate::requirements;
 use crate::store::{Claim, StudyFolder, identity};
 
 pub(super) fn merge(args: &MergeArgs, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
@@ -44,15 +43,7 @@ pub(super) fn merge(args: &MergeArgs, out: &mut Out<'_>) -> Result<Verdict, Harn
         && parts.iter().all(|part| StudyFolder::has_begun(part, &identity))
     {
         StudyFolder::remove_within(&args.dir, SHARDS)?;
-        out.say(&format!(
-            "{} holds this study, complete; its parts are removed",
-            args.dir.display()
-        ))?;
-        return Ok(if requirements::missed_in(&args.dir)? == 0 {
-            Verdict::Done
-        } else {
-            Verdict::BoundsMissed
-        });
+        return held(&args.dir, "; its parts are removed", out);
     }
     let folder = StudyFolder::claim(&args.dir, &identity, Claim::Resume)?;
     let studies = cast(&plan, &models, folder.output().path())?;

@@ -16,7 +16,7 @@ use crate::format::TERMINAL;
 use crate::output::OutputFolder;
 use crate::pack::{default_folder, fmu_path};
 use crate::report::manifest::peak_memory_mib;
-use crate::requirements::check;
+use crate::requirements::{check, missed_in};
 use crate::tuning::sets::{TunedFile, add};
 
 /// Exit code of a command that was asked to stop.
@@ -29,6 +29,21 @@ pub(super) enum Verdict {
     Done,
     BoundsMissed,
     StandardBroken,
+}
+
+/// Says that a folder holds a study, complete, and whether it misses requirements.
+///
+/// * `more`: what else there is to say of it.
+pub(super) fn held(folder: &Path, more: &str, out: &mut Out<'_>) -> Result<Verdict, HarnessError> {
+    let missed = missed_in(folder)?;
+    let (told, verdict) = if missed == 0 {
+        (String::new(), Verdict::Done)
+    } else {
+        let told = format!("; it misses {missed} of its requirements");
+        (told, Verdict::BoundsMissed)
+    };
+    out.say(&format!("{} holds this study, complete{more}{told}", folder.display()))?;
+    Ok(verdict)
 }
 
 /// A line on stderr. Nobody can be told when that fails.
