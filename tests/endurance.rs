@@ -8,6 +8,7 @@ mod common;
 
 use common::{command, harness, harness_ok, results};
 use rand::RngExt;
+use std::io::Read;
 use std::path::Path;
 use std::process::{Child, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
@@ -36,25 +37,43 @@ fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-fn start(study: &[&str], out: &Path, more: &[&str]) -> Child {
-    let arguments = [study, more, &["--out", text(out)]].concat();
-    command(&arguments)
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
+/// A study at work, which does not outlive its test.
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
 }
 
-fn signal(child: &Child, name: &str) {
+fn start(study: &[&str], out: &Path, more: &[&str]) -> Running {
+    let arguments = [study, more, &["--out", text(out)]].concat();
+    let mut command = command(&arguments);
+    Running(command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap())
+}
+
+fn signal(study: &Running, name: &str) {
     let sent = std::process::Command::new("kill")
-        .args([&format!("-{name}"), &child.id().to_string()])
+        .args([&format!("-{name}"), &study.0.id().to_string()])
         .status();
     assert!(sent.unwrap().success());
 }
 
-fn ended(child: Child) -> (ExitStatus, String) {
-    let output = child.wait_with_output().unwrap();
-    (output.status, String::from_utf8(output.stderr).unwrap())
+fn ended(mut study: Running) -> (ExitStatus, String) {
+    wait_until(&mut study, "it did not end", || false);
+    let mut said = String::new();
+    study.0.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+    (study.0.wait().unwrap(), said)
+}
+
+/// Waits until something has happened or the study is over, whichever comes first.
+fn wait_until(study: &mut Running, otherwise: &str, happened: impl Fn() -> bool) {
+    let begun = Instant::now();
+    while !happened() && study.0.try_wait().unwrap().is_none() {
+        assert!(begun.elapsed() < PATIENCE, "{otherwise} in {PATIENCE:?}");
+        std::thread::sleep(Duration::from_millis(2));
+    }
 }
 
 /// Finished runs of a folder, as whoever goes on finds them.
@@ -79,12 +98,8 @@ fn journal(folder: &Path) -> u64 {
 }
 
 /// Waits until the journals of a folder hold more than `size`, or the study is over.
-fn wait_for_more(child: &mut Child, out: &Path, size: u64) {
-    let begun = Instant::now();
-    while journal(out) <= size && child.try_wait().unwrap().is_none() {
-        assert!(begun.elapsed() < PATIENCE, "no run was kept in {PATIENCE:?}");
-        std::thread::sleep(Duration::from_millis(2));
-    }
+fn wait_for_more(study: &mut Running, out: &Path, size: u64) {
+    wait_until(study, "no run was kept", || journal(out) > size);
 }
 
 #[test]
@@ -104,8 +119,7 @@ fn killed_at_any_moment_a_study_goes_on_to_the_same_bytes() {
         }
         let moment = Duration::from_millis(moments.random_range(0..60));
         std::thread::sleep(moment);
-        child.kill().unwrap();
-        child.wait().unwrap();
+        drop(child);
         if killed.join("manifest.json").exists() {
             break;
         }
@@ -152,14 +166,19 @@ fn asked_to_stop_a_study_ends_at_once_and_says_how_to_go_on() {
         let out = folder.path().join(name);
         let mut child = start(&LONG, &out, &[]);
         wait_for_more(&mut child, &out, 1_000_000);
-        let asked = Instant::now();
+        // Held while it is asked, so that what it keeps from here on it keeps in spite of that, however slow the machine is.
+        signal(&child, "STOP");
+        let before = journal(&out);
         signal(&child, name);
+        signal(&child, "CONT");
         let (status, said) = ended(child);
         assert_eq!(status.code(), Some(130), "{said}");
         assert!(said.contains("--resume"), "{said}");
-        // Runs that are under way are finished, and no other.
-        assert!(asked.elapsed() < PATIENCE, "{:?}", asked.elapsed());
-        assert!(journal(&out) >= 1_000_000 && finished(&out) < 1000);
+        let (size, kept) = (journal(&out), finished(&out));
+        assert!(kept > 0, "what was finished is lost");
+        // Runs under way are broken off at their next step; of as many as five the two threads may have been at the end.
+        let more = (size - before) as f64 / (size as f64 / kept as f64);
+        assert!(more < 5.0, "{more:.1} runs were kept after {name}");
     }
 }
 
@@ -171,8 +190,7 @@ fn a_folder_belongs_to_one_study_and_one_process() {
     wait_for_more(&mut first, &out, 0);
     let (status, said) = ended(start(&LONG, &out, &["--resume"]));
     assert!(status.code() == Some(2) && said.contains("in use"), "{said}");
-    first.kill().unwrap();
-    first.wait().unwrap();
+    drop(first);
     let other = [&STUDY[..], &["--seed", "2", "--out", text(&out)]].concat();
     let refused = harness(&other);
     let said = String::from_utf8(refused.stderr).unwrap();
