@@ -17,7 +17,7 @@ use crate::library::Library;
 const ALIVE: usize = 6;
 
 struct Instance {
-    library: usize,
+    maker: usize,
     component: Fmi2Component,
     /// Where its next step should begin, if all has gone well.
     time: f64,
@@ -151,7 +151,7 @@ impl Attack {
         }
         let place = self.random.random_range(0..self.instances.len());
         let instance = &self.instances[place];
-        let (own, component) = (instance.library, instance.component);
+        let (own, component) = (instance.maker, instance.component);
         if self.chance(50) {
             (self.libraries[1 - own], component, None)
         } else {
@@ -207,11 +207,11 @@ impl Attack {
 
     fn free_instance(&mut self, place: usize) {
         let instance = self.instances.swap_remove(place);
-        let library = self.libraries[instance.library];
+        let library = self.libraries[instance.maker];
         // States outlive their instance, but only an instance can free them: what would be left is freed with the last.
-        if !self.instances.iter().any(|i| i.library == instance.library) {
+        if !self.instances.iter().any(|i| i.maker == instance.maker) {
             let states = std::mem::take(&mut self.states);
-            let (own, others): (Vec<_>, Vec<_>) = states.into_iter().partition(|(owner, _)| *owner == instance.library);
+            let (own, others): (Vec<_>, Vec<_>) = states.into_iter().partition(|(owner, _)| *owner == instance.maker);
             self.states = others;
             for (_, mut state) in own {
                 // SAFETY: instance and state are alive, and the state is not used again.
@@ -259,7 +259,7 @@ impl Attack {
         self.note("fmi2Instantiate", status.raw());
         if !component.is_null() {
             self.instances.push(Instance {
-                library: own,
+                maker: own,
                 component,
                 time: 0.0,
             });

@@ -5,7 +5,7 @@
 //! time would cost more than the step. Raw system calls are not counted: the standard library of Rust waits by one, and a library
 //! that makes them to install a handler is seen in its first calls and when it is unloaded.
 
-use object::{BinaryFormat, File, Object};
+use object::{BinaryFormat, File, Import, Object};
 
 /// Functions by which the folder, the locale or a signal's handler is changed, or what is looked up or opened may do so.
 const BEYOND: [&str; 29] = [
@@ -76,7 +76,7 @@ fn reaches_beyond(library: &[u8]) -> Option<bool> {
             .name()
             .is_none_or(|name| BEYOND.iter().any(|beyond| beyond.as_bytes() == name));
         // What no library of the system is named for comes from whatever happens to be loaded.
-        named || !(import.is_weak() || plain(import.library()))
+        named || !(import.is_weak() || plain(Import::library(import)))
     });
     Some(foreign || beyond)
 }
