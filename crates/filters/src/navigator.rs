@@ -20,6 +20,7 @@ use interface::Bound::Positive;
 use interface::mission::Frame;
 use interface::{Navigation, Sensor, Status};
 use nalgebra::Vector3;
+use numerics::spd;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -132,6 +133,8 @@ pub struct Navigator {
     estimate: Estimate,
     innovation: Innovation,
     status: Status,
+    /// Whether rounding has left no covariance; nothing brings it back.
+    unsound: bool,
     /// Epochs at which no sensor of the target was due, since the last at which one was: the law has not heard of them.
     between: Option<Between>,
     /// What a bound has been told so far; `None` for a filter, which is told nothing.
@@ -248,6 +251,7 @@ impl Navigator {
             },
             innovation: Innovation::default(),
             status: Status::Initialising,
+            unsound: false,
             between: None,
             untold: filter.bound.then(Untold::default),
             commands: Commands::default(),
@@ -502,6 +506,7 @@ impl Navigator {
         self.last = sample.without_readings(sample.time);
         self.expected = None;
         self.judge(due, seen);
+        self.unsound |= self.law.learns_without_bound() && !self.has_covariance();
         Ok(())
     }
 
@@ -531,6 +536,16 @@ impl Navigator {
         };
     }
 
+    /// Whether what stands as the covariance of the target's states is one.
+    fn has_covariance(&self) -> bool {
+        let p = &self.estimate.p_target;
+        match self.dimension() {
+            0 => true,
+            6 => spd::is_covariance(&p.fixed_view::<6, 6>(0, 0).into_owned()),
+            _ => spd::is_covariance(p),
+        }
+    }
+
     /// The estimate after the newest sample.
     pub fn estimate(&self) -> &Estimate {
         &self.estimate
@@ -541,12 +556,12 @@ impl Navigator {
         &self.innovation
     }
 
-    /// What the filter is doing.
+    /// What the filter is doing. Once rounding has left it no covariance it has diverged for good.
     pub fn status(&self) -> Status {
-        if self.source.is_stale() {
-            Status::Stale
-        } else {
-            self.status
+        match self.status {
+            _ if self.source.is_stale() => Status::Stale,
+            _ if self.unsound => Status::Diverged,
+            status => status,
         }
     }
 

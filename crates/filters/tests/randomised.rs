@@ -1,28 +1,171 @@
 //! Filters flown as nobody should fly them: whatever the tuning, the start and the samples, an estimate is a number, its covariance
 //! that of something, or the filter says that it has diverged.
 //!
-//! `RANDOMISED_RUNS=10000 cargo test --release -p filters --test randomised -- --nocapture` is the long way.
+//! `RANDOMISED_RUNS=2500 cargo test --release -p filters --test randomised -- --nocapture` is the long way, of each mission.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
 #![allow(clippy::print_stdout, reason = "what has happened is shown with --nocapture")]
 
 mod common;
+mod flight;
 mod formation;
 
+use astro::{Cr3bpSystem, Elements};
 use common::{OwnWorld, navigation};
 use filters::laws::{FILTERS, FilterEntry};
 use filters::state::State;
 use filters::tunable::{Kind, Value};
-use filters::{Estimate, FilterError, Navigator, Reading, Sample, Settings, Status};
+use filters::{Estimate, FilterError, Navigation, Navigator, Reading, Sample, Settings, Status};
+use flight::{Flight, Push};
 use formation::{Formation, World};
+use interface::Mission;
 use interface::mission::Frame;
+use nalgebra::{Vector3, Vector6};
 use numerics::{Generator, Source, stream};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Filters in a mission, drawn in turn; each of them in both.
-const MISSIONS: [&str; 2] = ["leo_venting", "formation"];
+/// Where filters fly: each of them in each, as far as it has a meaning there.
+const MISSIONS: [&str; 4] = ["leo_venting", "nrho_venting", "formation", DRAWN];
+
+/// A mission that each run draws for itself.
+const DRAWN: &str = "a drawn one";
+
+fn vector(g: &mut Generator, size: f64) -> Vector3<f64> {
+    Vector3::from_fn(|_, _| size * normal(g))
+}
+
+/// Relative position and velocity, metres to kilometres.
+fn relative(g: &mut Generator) -> Vector6<f64> {
+    let distance = 10_f64.powf(g.random_range(1.0..4.0));
+    let (r, v) = (vector(g, distance), vector(g, 1e-3 * distance));
+    Vector6::new(r.x, r.y, r.z, v.x, v.y, v.z)
+}
+
+/// An orbit of any shape and plane about the Earth, any set of sensors that tells where the target is, at any periods and precisions,
+/// any scale of what is not modelled.
+fn drawn_mission(g: &mut Generator) -> (Navigation, Vector6<f64>) {
+    let mut sensors = String::new();
+    let mut sensor = |name: &str, g: &mut Generator, more: &str| {
+        let period = [0.5, 1.0, 2.0, 5.0, 10.0][g.random_range(0..5)];
+        sensors.push_str(&format!("[sensors.{name}]\nperiod_s = {period:?}\n{more}"));
+    };
+    let lidar = format!(
+        "sigma_range_m = {:e}\nsigma_angle_deg = {:e}\n",
+        0.08 * decades(g, 2.0),
+        0.04 * decades(g, 2.0)
+    );
+    match g.random_range(0..4) {
+        0 => sensor("lidar", g, &lidar),
+        // Angles alone do not say how far the target is.
+        1 => ["camera", "radio"].into_iter().for_each(|name| sensor(name, g, "")),
+        2 => sensor("radio", g, ""),
+        _ => ["lidar", "camera", "radio"]
+            .into_iter()
+            .for_each(|name| sensor(name, g, "")),
+    }
+    if g.random_bool(0.7) {
+        sensor("accelerometer", g, "sigma_m_s2 = 3.4e-6\n");
+    }
+    let elements = Elements {
+        a: g.random_range(6.8e6..4.2e7),
+        e: g.random_range(0.0..0.05),
+        inclination: g.random_range(0.0..std::f64::consts::PI),
+        node: g.random_range(0.0..6.0),
+        argument_of_periapsis: g.random_range(0.0..6.0),
+        mean_anomaly: g.random_range(0.0..6.0),
+    };
+    let text = format!(
+        r#"
+mission = 1
+name = "drawn"
+[time]
+duration_s = 900.0
+[environment]
+gravity = {{ model = "zonal", mu_m3_s2 = 3.986e14, radius_m = 6.378e6, j = [1.083e-3, -2.532e-6, -1.620e-6] }}
+[target.orbit]
+at = "start"
+elements = {{ a_m = {a:e}, e = {e:e}, i_deg = 15.0, raan_deg = 0.0, argp_deg = 0.0, mean_anomaly_deg = 0.0 }}
+[chaser.relative]
+at = "start"
+axes = "n"
+r_tc_m = [300.0, -900.0, 250.0]
+v_tc_m_s = [0.1, 0.5, -0.2]
+[initial_error]
+sigma_position_m = {position:e}
+sigma_velocity_m_s = {velocity:e}
+{sensors}
+[navigation]
+chaser_q_c_m2_s3 = {q_c:e}
+[navigation.scale]
+disturbance_m_s2 = {disturbance:e}
+disturbance_time_s = {time:e}
+"#,
+        a = elements.a,
+        e = elements.e,
+        position = 5.0 * decades(g, 2.0),
+        velocity = 0.05 * decades(g, 2.0),
+        q_c = 1e-12 * decades(g, 4.0),
+        disturbance = 1e-5 * decades(g, 3.0),
+        time = 30.0 * decades(g, 1.5),
+    );
+    let told = Mission::parse("drawn.toml", &text).unwrap().navigation();
+    let (r, v) = elements.to_state(3.986e14).unwrap();
+    (told, Vector6::new(r.x, r.y, r.z, v.x, v.y, v.z))
+}
+
+/// A truth that brings a sample when it is asked for one.
+type Samples = Box<dyn FnMut() -> Sample>;
+
+/// A world, what its filter is told, and where that begins.
+fn world(mission: &str, run: u64, g: &mut Generator) -> (Navigation, Samples, State) {
+    fn own(mut world: impl World + 'static) -> Samples {
+        Box::new(move || world.step())
+    }
+    let flown = |told: &Navigation, gravity: flight::Gravity, target: &Vector6<f64>, g: &mut Generator| {
+        let (mut flight, start) = Flight::new(told, gravity, target, &relative(g), run);
+        let from = g.random_range(0..200_u32);
+        let size = 1e-5 * decades(g, 3.0);
+        flight.grid = 0.5;
+        flight.on_target.push(Push {
+            from: f64::from(from),
+            to: f64::from(from + g.random_range(1..100_u32)),
+            a_n: vector(g, size),
+        });
+        let samples: Samples = Box::new(move || flight.next());
+        (samples, start)
+    };
+    match mission {
+        DRAWN => {
+            let (told, target) = drawn_mission(g);
+            let gravity: flight::Gravity = Box::new(|_, r, _| astro::earth::FILTER.acceleration(r));
+            let (samples, start) = flown(&told, gravity, &target, g);
+            (told, samples, start)
+        }
+        "nrho_venting" => {
+            let told = navigation(mission);
+            let system = Cr3bpSystem::new(1.215e-2, 3.844e8, 3.752e5).unwrap();
+            let (r, v) = system.to_si(
+                &Vector3::new(0.9879, 1.432e-2, 2.009e-3),
+                &Vector3::new(7.173e-2, 0.9238, -0.8528),
+            );
+            let target = Vector6::new(r.x, r.y, r.z, v.x, v.y, v.z);
+            let (samples, start) = flown(&told, Box::new(move |_, r, v| system.acceleration(r, v)), &target, g);
+            (told, samples, start)
+        }
+        "formation" => {
+            let (world, start) = Formation::new(run);
+            (navigation(mission), own(world), start)
+        }
+        _ => {
+            let (world, start) = OwnWorld::new(run, 1e-6 * decades(g, 3.0));
+            (navigation(mission), own(world), start)
+        }
+    }
+}
 
 fn normal(g: &mut Generator) -> f64 {
     StandardNormal.sample(g)
@@ -167,19 +310,8 @@ enum End {
 /// One run; the text says what no run may do.
 fn flown(entry: &FilterEntry, filter: usize, mission: &str, run: u64) -> Result<End, String> {
     let g = &mut stream(20_271_129, run, Source::Variation);
-    let told = navigation(mission);
     let settings = drawn(entry, filter, run, g);
-    let (mut world, start): (Box<dyn World>, State) = match told.frame {
-        Frame::Inertial => {
-            let (world, start) = OwnWorld::new(run, 1e-6 * decades(g, 3.0));
-            (Box::new(world), start)
-        }
-        Frame::Lvlh => {
-            let (world, start) = Formation::new(run);
-            (Box::new(world), start)
-        }
-    };
-    let mut start = start;
+    let (told, mut next, mut start) = world(mission, run, g);
     if g.random_bool(0.3) {
         // A hundred sigma of what the missions state.
         let sigmas = if told.frame == Frame::Lvlh {
@@ -200,7 +332,7 @@ fn flown(entry: &FilterEntry, filter: usize, mission: &str, run: u64) -> Result<
     };
     let mut skip = 0;
     for _ in 0..300 {
-        let mut sample = world.step();
+        let mut sample = next();
         if skip > 0 {
             skip -= 1;
             continue;
@@ -236,19 +368,28 @@ fn flown(entry: &FilterEntry, filter: usize, mission: &str, run: u64) -> Result<
 #[test]
 fn whatever_the_tuning_and_the_samples_an_estimate_is_one_or_diverged() {
     let runs = std::env::var("RANDOMISED_RUNS").map_or(20, |runs| runs.parse().unwrap());
-    let mut faults = Vec::new();
+    let pairs: Vec<(usize, &str)> = (0..FILTERS.len())
+        .flat_map(|filter| MISSIONS.map(|mission| (filter, mission)))
+        .filter(|(filter, mission)| {
+            // Drawn missions are in inertial axes, as the first is.
+            let told = navigation(if *mission == DRAWN { MISSIONS[0] } else { mission });
+            FILTERS[*filter].no_meaning_in(&told).is_none()
+        })
+        .collect();
+    let (next, faults) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     println!("filter, mission: runs, tracked at the end, diverged, broke down");
-    for (filter, entry) in FILTERS.iter().enumerate() {
-        for mission in MISSIONS {
-            if entry.no_meaning_in(&navigation(mission)).is_some() {
-                continue;
-            }
+    let work = || {
+        while let Some((filter, mission)) = pairs.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let entry = &FILTERS[*filter];
             let mut ends = [0; 3];
             for run in 0..runs {
-                let flown = catch_unwind(AssertUnwindSafe(|| flown(entry, filter, mission, run)));
+                let flown = catch_unwind(AssertUnwindSafe(|| flown(entry, *filter, mission, run)));
                 match flown.unwrap_or_else(|_| Err("panicked".to_owned())) {
                     Ok(end) => ends[end as usize] += 1,
-                    Err(what) => faults.push(format!("{} in {mission}, run {run}: {what}", entry.name)),
+                    Err(what) => {
+                        let what = format!("{} in {mission}, run {run}: {what}", entry.name);
+                        faults.lock().unwrap().push(what);
+                    }
                 }
             }
             println!(
@@ -256,6 +397,12 @@ fn whatever_the_tuning_and_the_samples_an_estimate_is_one_or_diverged() {
                 entry.name, ends[0], ends[1], ends[2]
             );
         }
-    }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(work);
+        }
+    });
+    let faults = faults.into_inner().unwrap();
     assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
 }

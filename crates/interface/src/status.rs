@@ -27,7 +27,11 @@ impl Status {
             "coasting",
             "newest sample had no measurement of the target",
         ),
-        (Self::Diverged, "diverged", "innovations far too large"),
+        (
+            Self::Diverged,
+            "diverged",
+            "innovations far too large, or no covariance left",
+        ),
         (Self::Stale, "stale", "no new sample for three periods"),
     ];
 

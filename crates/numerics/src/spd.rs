@@ -17,6 +17,16 @@ pub fn mirror<const N: usize>(m: &mut SMatrix<f64, N, N>) {
     }
 }
 
+/// Whether a symmetric matrix is a covariance but for rounding: every variance positive, and no eigenvalue of its correlations below
+/// -1e-9.
+pub fn is_covariance<const N: usize>(p: &SMatrix<f64, N, N>) -> bool {
+    /// Correlations lose digits where one state is known much better than what it hangs on.
+    const ROUNDING: f64 = 1e-9;
+    let mut lifted = *p;
+    (0..N).for_each(|i| lifted[(i, i)] *= 1.0 + ROUNDING);
+    p.diagonal().iter().all(|variance| *variance > 0.0) && lifted.cholesky().is_some()
+}
+
 /// B S^-1 from the lower Cholesky factor L of S: a Kalman gain from P H^T.
 ///
 /// Whole columns of B are worked on, which for a tall B is several times as fast as nalgebra's solutions for the columns of B^T.
@@ -99,6 +109,27 @@ mod tests {
         let wide = f.fixed_rows::<2>(1).into_owned();
         let (fp, fpf) = carried(&wide, &p);
         assert!((fp - wide * p).amax() < 1e-13 && (fpf - wide * p * wide.transpose()).amax() < 1e-12);
+    }
+
+    /// A correlation beyond one is none, in whatever units; one that is one but for rounding is.
+    #[test]
+    fn a_covariance_has_correlations_up_to_one() {
+        for (correlation, expected) in [
+            (0.9, true),
+            (1.0, true),
+            (-1.0 - 1e-12, true),
+            (1.0 + 1e-6, false),
+            (-2.0, false),
+        ] {
+            for (a, b) in [(1.0, 1.0), (1e6, 1e-9)] {
+                let p = Matrix2::new(a * a, correlation * a * b, correlation * a * b, b * b);
+                assert_eq!(is_covariance(&p), expected, "{correlation} {a} {b}");
+            }
+        }
+        assert!(
+            !is_covariance(&Matrix2::new(1.0, 0.0, 0.0, 0.0)) && !is_covariance(&Matrix2::new(1.0, 0.0, 0.0, -1.0))
+        );
+        assert!(!is_covariance(&Matrix2::new(1.0, f64::NAN, f64::NAN, 1.0)));
     }
 
     #[test]

@@ -549,7 +549,7 @@ impl Estimator for InertialState {
         let variance = |i: usize| if i < N_TARGET { p[(i, i)] } else { core.p[(i, i)] };
         Reported {
             x: x.component_mul(&unit),
-            p_target: TargetMatrix::from_fn(|i, j| p[(i, j)] * unit[i] * unit[j]),
+            p_target: TargetMatrix::from_fn(|i, j| p[(i, j)] * (unit[i] * unit[j])),
             sigma: State::from_fn(|i, _| variance(i).sqrt() * unit[i]),
         }
     }

@@ -121,6 +121,11 @@ pub trait Adaptation {
         Vector3::zeros()
     }
 
+    /// Whether nothing keeps the process noise from growing until rounding leaves no covariance: the filter then looks at its own.
+    fn learns_without_bound(&self) -> bool {
+        false
+    }
+
     /// How often the law has changed its mind.
     fn updates(&self) -> i32 {
         0
@@ -186,6 +191,9 @@ macro_rules! one_of_laws {
             }
             fn s(&self) -> ::nalgebra::Vector3<f64> {
                 self.inner().s()
+            }
+            fn learns_without_bound(&self) -> bool {
+                self.inner().learns_without_bound()
             }
             fn updates(&self) -> i32 {
                 self.inner().updates()

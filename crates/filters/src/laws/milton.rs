@@ -219,6 +219,10 @@ impl Adaptation for Milton {
         self.s
     }
 
+    fn learns_without_bound(&self) -> bool {
+        true
+    }
+
     fn updates(&self) -> i32 {
         self.updates
     }

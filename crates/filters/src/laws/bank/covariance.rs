@@ -39,7 +39,7 @@ pub(super) fn as_covariance(found: Matrix6<f64>, of: &Matrix6<f64>) -> Matrix6<f
     match SymmetricEigen::try_new(scaled, f64::EPSILON, EIGEN_STEPS) {
         Some(mut eigen) => {
             eigen.eigenvalues.apply(|value| *value = value.max(0.0));
-            eigen.recompose().component_mul(&scales)
+            spd::symmetrised(&eigen.recompose().component_mul(&scales))
         }
         None => Matrix6::from_diagonal(&found.diagonal().map(|v| v.max(0.0))),
     }
@@ -64,6 +64,7 @@ mod tests {
         let spoilt = found - across * across.transpose() * 1e-4;
         let difference = (as_covariance(spoilt, &of) - found).component_div(&(scale * scale.transpose()));
         assert!(difference.amax() < 1e-15, "{difference}");
+        assert_eq!(as_covariance(spoilt, &of), as_covariance(spoilt, &of).transpose());
     }
 
     /// What is added to nothing else must be the covariance of something, however much has gone.

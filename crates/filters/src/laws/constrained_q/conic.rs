@@ -49,6 +49,9 @@ fn judged<T>((status, x): (SolverStatus, T), almost: Almost) -> Result<T, NoAnsw
 }
 
 /// An answer, and whether it is solved or almost solved.
+///
+/// All that asks for memory here is clarabel's; a function of its own, so that a backtrace shows it where clarabel's are inlined.
+#[inline(never)]
 fn attempt<const K: usize>(
     settings: DefaultSettings<f64>,
     cost: &[[f64; K]; K],

@@ -1,5 +1,8 @@
 //! A small truth of its own: two vehicles in any gravity, burns, and every sensor at a period of its own.
 
+#![allow(missing_docs, reason = "part of test binaries")]
+#![allow(dead_code, reason = "each binary uses its own part")]
+
 use filters::state::State;
 use filters::{Reading, Sample, SpecificForce, Untold};
 use interface::Navigation;
