@@ -280,7 +280,8 @@ fn a_failed_run_is_counted_and_leaves_the_others_alone() {
         "{failures}"
     );
     assert!(
-        lines[2].starts_with("mock,nan,nominal,1,2,8.0,") && lines[2].contains("NaN"),
+        lines[2].starts_with("mock,nan,nominal,1,2,8.0,")
+            && lines[2].contains("est.r_tc_n[1] is NaN in the estimate of sample 8 (8 s)"),
         "{failures}"
     );
     // Seven runs are left to compare with the first filter.
@@ -306,6 +307,58 @@ fn a_failed_truth_fails_every_filter_of_that_run() {
         assert!(failure.message.contains("fmu-truth"), "{failure:?}");
         near(row(filter).position.rmse, rms_norm((0..RUNS).filter(|r| *r != 5)));
     }
+}
+
+/// Whatever a truth says that is none costs its run, by the variable that says it, and no other.
+#[test]
+fn a_truth_that_goes_wrong_fails_its_run_by_name() {
+    let not_finite = |name| Quirk::NotFiniteTruth { run: 2, name };
+    for (quirk, run, said) in [
+        (
+            not_finite("truth.r_tc_n[2]"),
+            2,
+            "truth.r_tc_n[2] is NaN at sample 9 (9 s)",
+        ),
+        (not_finite("truth.v_tc_n[3]"), 2, "truth.v_tc_n[3] is NaN at sample 9"),
+        (not_finite("truth.a_t_n[1]"), 2, "truth.a_t_n[1] is NaN at sample 9"),
+        (not_finite("truth.r_c_n[1]"), 2, "truth.r_c_n[1] is NaN at sample 9"),
+        (not_finite("truth.v_c_n[2]"), 2, "truth.v_c_n[2] is NaN at sample 9"),
+        (not_finite("sample_time"), 2, "NaN s"),
+        (
+            Quirk::Stalls { run: 1, after: 12 },
+            1,
+            "sample_count stayed at 12 from 12 s to the end at 40 s",
+        ),
+        (Quirk::Stalls { run: 0, after: 0 }, 0, "sample_count stayed at 0"),
+    ] {
+        let (_, filters) = study(spec(quirk, &[("a", Quirk::None), ("b", Quirk::None)]), 2);
+        for filter in &filters {
+            assert_eq!(filter.failed(), 1, "{quirk:?}");
+            let failure = filter.runs[run].failure.as_ref().unwrap();
+            assert!(failure.message.contains(said), "{quirk:?}: {failure:?}");
+            near(
+                row(filter).position.rmse,
+                rms_norm((0..RUNS).filter(|r| *r != run as i32)),
+            );
+        }
+    }
+}
+
+/// A covariance that is none is counted, and takes nothing else with it.
+#[test]
+fn a_covariance_that_is_none_above_its_diagonal_counts_against_its_filter() {
+    let (_, filters) = study(
+        spec(
+            Quirk::None,
+            &[("good", Quirk::None), ("above", Quirk::BrokenAbove { run: 4 })],
+        ),
+        2,
+    );
+    let [good, above] = [0, 1].map(|i| row(&filters[i]));
+    assert_eq!((good.covariances_broken, above.covariances_broken), (0, 2));
+    assert_eq!((good.failed, above.failed), (0, 0));
+    near(above.position.rmse, rms_norm(0..RUNS));
+    assert!(above.nees.mean.is_some() && above.nees.mean != good.nees.mean);
 }
 
 #[test]

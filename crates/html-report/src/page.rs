@@ -278,6 +278,17 @@ fn badges(row: &Row) -> Badges {
             text: format!("{n} {kind}"),
         });
     }
+    // Most filters have neither.
+    for (column, what) in [
+        ("cov_broken", "samples without a covariance"),
+        ("missing_epochs", "samples unanswered"),
+    ] {
+        let n = row.count(column);
+        marks.extend((n > 0).then(|| Mark {
+            good: false,
+            text: format!("{n} {what}"),
+        }));
+    }
     if let (Some(nees), Some(low), Some(high)) = (row.number("nees"), row.number("nees_low"), row.number("nees_high")) {
         let good = (low..=high).contains(&nees);
         let place = match good {
@@ -359,6 +370,10 @@ fn table_row(row: &Row) -> TableRow {
         value: row.text(column).to_owned(),
         shown: match *column {
             "failed" | "diverged" => row.count(column).to_string(),
+            // A mean over what is left says too little of such a filter.
+            "nees" | "nees6" | "nees_inside" if row.count("cov_broken") > 0 => {
+                format!("{} !", short(row.number(column)))
+            }
             _ => short(row.number(column)),
         },
     };

@@ -29,6 +29,10 @@ pub fn nees(error: &SVector<f64, 9>, covariance: &SMatrix<f64, 9, 9>, dimension:
             p[(i, j)] = covariance[(i, j)];
         }
     }
+    // What is above the diagonal too, which no factor reads.
+    if !p.iter().all(|v| v.is_finite()) {
+        return Err(StatsError::NotPositiveDefinite { dimension });
+    }
     for i in 0..dimension {
         for j in 0..i {
             let difference = p[(i, j)] - p[(j, i)];
@@ -133,8 +137,21 @@ mod tests {
                 difference: 0.1
             })
         );
-        p[(2, 1)] = f64::NAN;
-        assert_eq!(nees(&e, &p, 9), Err(StatsError::NotPositiveDefinite { dimension: 9 }));
+        p[(2, 1)] = 0.0;
+        for (at, nothing) in [
+            ((2, 1), f64::NAN),
+            ((1, 2), f64::NAN),
+            ((1, 2), f64::INFINITY),
+            ((8, 8), f64::INFINITY),
+        ] {
+            let mut p = p;
+            p[at] = nothing;
+            assert_eq!(
+                nees(&e, &p, 9),
+                Err(StatsError::NotPositiveDefinite { dimension: 9 }),
+                "{at:?}"
+            );
+        }
         for dimension in [0, 10] {
             assert_eq!(nees(&e, &p, dimension), Err(StatsError::Dimension { dimension }));
         }

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use crate::readers::Tag;
 use crate::samples::{SAME_TIME, TruthSample};
 use crate::spec::Spec;
+use crate::world::Signals;
 
 /// The truth at every sample of a run so far, for filters that answer late.
 pub(crate) struct History {
@@ -17,6 +18,9 @@ pub(crate) struct History {
     /// Its time, s.
     pub(crate) time: f64,
     sample_period: f64,
+    /// Longest time from one sample to the next, s.
+    longest: f64,
+    signals: &'static Signals,
 }
 
 impl History {
@@ -27,6 +31,8 @@ impl History {
             newest: 0,
             time: 0.0,
             sample_period: spec.sample_period,
+            longest: spec.sample_period,
+            signals: spec.world.frame.signals(),
         }
     }
 
@@ -45,8 +51,8 @@ impl History {
                 "truth took sample {count} at {time} s, between communication points (now {now} s), where its state is unknown; choose --step so that samples fall on them"
             ));
         }
-        if let Some((what, value)) = sample.first_not_finite() {
-            return Err(format!("truth has a {what} of {value} at sample {count} ({time} s)"));
+        if let Some(what) = sample.first_not_finite(self.signals) {
+            return Err(format!("{what} at sample {count} ({time} s) of the truth"));
         }
         let epoch = usize::try_from(ordinal - 1).ok();
         let slot = epoch.and_then(|epoch| Some((epoch, self.samples.get_mut(epoch)?)));
@@ -54,8 +60,24 @@ impl History {
         *slot = Some(TruthSample { epoch, ..sample });
         self.newest = i32::try_from(count).unwrap_or(i32::MAX);
         self.epochs.insert(self.newest, epoch);
+        self.longest = self.longest.max(time - self.time);
         self.time = time;
         Ok(())
+    }
+
+    /// What is wrong with a truth that has stopped sampling before the end of a run, s: no pause in it was anywhere as long.
+    pub(crate) fn stalled(&self, end: f64) -> Option<String> {
+        const PAUSES: f64 = 10.0;
+        let silent = end - self.time;
+        (self.newest == 0 || silent > PAUSES * self.longest).then(|| {
+            let Self { newest, time, .. } = self;
+            format!("the truth stopped sampling: sample_count stayed at {newest} from {time} s to the end at {end} s")
+        })
+    }
+
+    /// Names of what is compared.
+    pub(crate) fn signals(&self) -> &'static Signals {
+        self.signals
     }
 
     /// Number of samples so far.

@@ -476,6 +476,7 @@ fn run_world(
         Err(error) => fail_all(&mut report.endings, None, &chain(&error)),
         Ok(outcome) => {
             report.steps = outcome.steps;
+            let broke = outcome.broke.is_some();
             if let Some(message) = outcome.broke {
                 fail_all(&mut report.endings, Some(history.time), &message);
             }
@@ -488,13 +489,16 @@ fn run_world(
                         time: Some(isolated.time),
                         message,
                     });
-                } else if seat.last.is_none() && ending.failure.is_none() {
+                } else if seat.last.is_none() && ending.failure.is_none() && history.newest > 0 {
                     let message = "ended without an estimate: est.count never rose above 0".to_owned();
                     ending.failure = Some(Failure {
                         time: Some(history.time),
                         message,
                     });
                 }
+            }
+            if let Some(message) = history.stalled(spec.world.duration_s).filter(|_| !broke) {
+                fail_all(&mut report.endings, Some(history.time), &message);
             }
             let time_of = |slave: SlaveId| {
                 let timing = outcome.timings.get(slave.index());
@@ -539,9 +543,9 @@ fn answer(
     };
     seat.last = Some(truth.epoch);
     seat.answered += 1;
-    if let Some((what, value)) = estimate.first_not_finite() {
+    if let Some(what) = estimate.first_not_finite(history.signals()) {
         return Err(format!(
-            "estimate of sample {} ({} s) has a {what} of {value}",
+            "{what} in the estimate of sample {} ({} s)",
             truth.count, truth.time
         ));
     }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::world::Signals;
 use interface::Status;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
@@ -67,25 +68,28 @@ pub struct Estimate {
 }
 
 impl TruthSample {
-    /// First number of the sample that is NaN or infinite, with its name.
-    pub(crate) fn first_not_finite(&self) -> Option<(&'static str, f64)> {
+    /// First number of the sample that is NaN or infinite, as in 'truth.r_tc_n[2] is NaN'.
+    pub(crate) fn first_not_finite(&self, signals: &Signals) -> Option<String> {
+        let names = |of: Option<[&'static str; 2]>, which: usize| of.map_or("", |names| names[which]);
         first_not_finite([
-            ("position", Some(self.position)),
-            ("velocity", Some(self.velocity)),
-            ("acceleration", self.acceleration),
-            ("bias", self.bias),
+            (signals.position[0], Some(self.position)),
+            (signals.velocity[0], Some(self.velocity)),
+            (signals.acceleration[0], self.acceleration),
+            (names(signals.bias, 0), self.bias),
+            (names(signals.chaser, 0), self.chaser.map(|(r, _)| r)),
+            (names(signals.chaser, 1), self.chaser.map(|(_, v)| v)),
         ])
     }
 }
 
 impl Estimate {
-    /// First number of the estimate itself that is NaN or infinite, with its name.
-    pub(crate) fn first_not_finite(&self) -> Option<(&'static str, f64)> {
+    /// First number of the estimate itself that is NaN or infinite, as in 'est.r_tc_n[2] is NaN'.
+    pub(crate) fn first_not_finite(&self, signals: &Signals) -> Option<String> {
         first_not_finite([
-            ("position", Some(self.position)),
-            ("velocity", Some(self.velocity)),
-            ("acceleration", self.acceleration),
-            ("bias", self.bias),
+            (signals.position[1], Some(self.position)),
+            (signals.velocity[1], Some(self.velocity)),
+            (signals.acceleration[1], self.acceleration),
+            (signals.bias.map_or("", |names| names[1]), self.bias),
         ])
     }
 
@@ -96,10 +100,12 @@ impl Estimate {
     }
 }
 
-fn first_not_finite(parts: [(&'static str, Option<Vector3<f64>>); 4]) -> Option<(&'static str, f64)> {
-    parts
-        .into_iter()
-        .find_map(|(name, v)| v?.iter().copied().find(|x| !x.is_finite()).map(|x| (name, x)))
+fn first_not_finite<const N: usize>(parts: [(&'static str, Option<Vector3<f64>>); N]) -> Option<String> {
+    parts.into_iter().find_map(|(name, v)| {
+        let v = v?;
+        let axis = v.iter().position(|x| !x.is_finite())?;
+        Some(format!("{name}[{}] is {}", axis + 1, v[axis]))
+    })
 }
 
 /// Which number a filter gives each [`Status`].

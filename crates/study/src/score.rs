@@ -21,10 +21,12 @@ pub fn score(world: &World, truth: &TruthSample, estimate: &Estimate) -> Option<
     let acceleration = Option::zip(estimate.acceleration, truth.acceleration).map(|(e, t)| e - t);
     let bias = Option::zip(estimate.bias, truth.bias).map(|(e, t)| e - t);
 
+    let leading = 0..estimate.dimension;
+    let mut elements = leading.clone().flat_map(|i| leading.clone().map(move |j| (i, j)));
     let covariance_finite = estimate
         .covariance
         .as_ref()
-        .is_none_or(|p| p.iter().all(|x| x.is_finite()));
+        .is_none_or(|p| elements.all(|at| p[at].is_finite()));
     let turned_variance = |block: usize| {
         let p = estimate.block(block).filter(|_| covariance_finite)?;
         Some((axes * p * axes.transpose()).diagonal())
@@ -83,15 +85,14 @@ fn normalised_error(
 ) -> (Option<f64>, bool) {
     let mut stacked = SVector::<f64, 9>::zeros();
     for (block, error) in errors.iter().enumerate() {
-        match error {
-            Some(error) => stacked.fixed_rows_mut::<3>(3 * block).copy_from(error),
-            // The truth of a state is unknown: its row has no error to normalise.
-            None if 3 * block < dimension => return (None, false),
-            None => {}
+        if let Some(error) = error {
+            stacked.fixed_rows_mut::<3>(3 * block).copy_from(error);
         }
     }
+    // Where the truth of a state is unknown its row has no error to normalise; the covariance is looked at all the same.
+    let known = errors.iter().take(dimension.div_ceil(3)).all(Option::is_some);
     match nees(&stacked, covariance, dimension) {
-        Ok(value) if value.is_finite() => (Some(value / dimension as f64), false),
+        Ok(value) if value.is_finite() => (known.then_some(value / dimension as f64), false),
         _ => (None, true),
     }
 }
@@ -243,6 +244,26 @@ mod tests {
             let s = score(&worlds::find("leo_venting").unwrap(), &truth(), &broken).unwrap();
             assert!(s.covariance_broken && s.nees().is_none() && s.nees6().is_none());
         }
+        // Above the diagonal alone, and where the truth of a state is unknown.
+        let mut broken = estimate();
+        broken.covariance.as_mut().unwrap()[(1, 7)] = f64::NAN;
+        let unknown = TruthSample {
+            acceleration: None,
+            ..truth()
+        };
+        for truth in [truth(), unknown] {
+            let s = score(&worlds::find("leo_venting").unwrap(), &truth, &broken).unwrap();
+            assert!(s.covariance_broken && s.nees().is_none() && s.nees6().is_none());
+        }
+        // What stands beyond the states of a filter is not its covariance.
+        let six = Estimate {
+            dimension: 6,
+            acceleration: None,
+            ..broken
+        };
+        let s = score(&worlds::find("leo_venting").unwrap(), &truth(), &six).unwrap();
+        assert!(!s.covariance_broken && s.nees().is_some());
+        assert!(s.variance(Quantity::Position).is_some() && s.variance(Quantity::Velocity).is_some());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use study::Summary;
 
-use super::column::find;
+use super::column::{Column, find};
 use super::summary::COLUMNS;
 use super::timing::TimingRow;
 use crate::format::{number, plain_table};
@@ -49,13 +49,30 @@ const WIDE: [(&str, &str); 14] = [
     ("diverged", "diverged"),
 ];
 
-/// What is said below a table of each filter that did not answer every sample.
+/// What is said below a table of each filter that did not answer every sample, or not with a covariance.
 pub fn missing(rows: &[Summary]) -> impl Iterator<Item = String> {
-    let silent = rows.iter().filter(|row| row.missing_epochs > 0);
-    silent.map(|row| {
-        let (filter, epochs) = (&row.filter, row.missing_epochs);
-        format!("! {filter} did not answer {epochs} samples of its runs: stale, or passed by")
+    rows.iter().flat_map(|row| {
+        let (filter, epochs, broken) = (&row.filter, row.missing_epochs, row.covariances_broken);
+        let silent = (epochs > 0)
+            .then(|| format!("! {filter} did not answer {epochs} samples of its runs: stale, or passed by"));
+        let broken = (broken > 0).then(|| {
+            format!(
+                "! {filter} has no covariance at {broken} samples: not symmetric, not positive definite or not finite; its NEES is of the others"
+            )
+        });
+        [silent, broken].into_iter().flatten()
     })
+}
+
+/// A cell as tables show it: a NEES that leaves samples out is marked.
+fn shown(column: &Column<Summary>, row: &Summary) -> String {
+    let text = column.cell(row).short();
+    let of_covariance = ["nees", "nees6", "nees_median"].contains(&column.name);
+    if of_covariance && row.covariances_broken > 0 {
+        text + " !"
+    } else {
+        text
+    }
 }
 
 /// Headings of what a filter cost.
@@ -68,7 +85,7 @@ const LONGEST: usize = 19;
 pub fn render(rows: &[Summary]) -> String {
     let cells = bounds_last(rows).map(|row| {
         let shown = SHOWN.iter().filter_map(|(_, name)| find(COLUMNS, name));
-        let mut cells: Vec<String> = shown.map(|c| c.cell(row).short()).collect();
+        let mut cells: Vec<String> = shown.map(|c| self::shown(c, row)).collect();
         if let Some(label) = cells.first_mut() {
             *label = marked(shortened(label, LONGEST - BOUND.len()), row);
         }
@@ -118,7 +135,7 @@ pub fn render_wide(rows: &[Summary], timings: &[TimingRow]) -> String {
         let same = |t: &&TimingRow| t.scenario == row.scenario && t.filter == row.filter && t.case == row.case;
         let timing = timings.iter().find(same);
         let shown = WIDE.iter().filter_map(|(_, name)| find(COLUMNS, name));
-        let mut cells: Vec<String> = shown.map(|c| c.cell(row).short()).collect();
+        let mut cells: Vec<String> = shown.map(|c| self::shown(c, row)).collect();
         if let Some(label) = cells.first_mut() {
             *label = marked(std::mem::take(label), row);
         }
@@ -229,11 +246,20 @@ mod tests {
     fn samples_that_went_unanswered_are_said_and_nothing_where_none_did() {
         let mut silent = row("snc", None);
         silent.missing_epochs = 12;
+        silent.covariances_broken = 3;
         let said: Vec<String> = missing(&[row("milton", None), silent]).collect();
         assert_eq!(
             said,
-            ["! snc did not answer 12 samples of its runs: stale, or passed by"]
+            [
+                "! snc did not answer 12 samples of its runs: stale, or passed by",
+                "! snc has no covariance at 3 samples: not symmetric, not positive definite or not finite; its NEES is of the others",
+            ]
         );
+        let mut broken = row("snc", None);
+        broken.nees.mean = Some(0.9);
+        assert!(!render(&[broken.clone()]).contains('!'));
+        broken.covariances_broken = 1;
+        assert!(render(&[broken.clone()]).contains("0.9000 !") && render_wide(&[broken], &[]).contains("0.9000 !"));
     }
 
     #[test]

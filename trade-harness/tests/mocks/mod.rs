@@ -79,6 +79,20 @@ pub enum Quirk {
     NoVelocity,
     /// Tags each estimate with the sample before.
     WrongTag,
+    /// The covariance of a run has a NaN above its diagonal, at samples 20 and 21 only.
+    BrokenAbove {
+        run: i32,
+    },
+    /// A truth of which an output is NaN in a run, from sample 9 on.
+    NotFiniteTruth {
+        run: i32,
+        name: &'static str,
+    },
+    /// A truth that takes no further sample in a run.
+    Stalls {
+        run: i32,
+        after: i32,
+    },
     /// A truth without an initial estimate.
     NoInitialEstimate,
     /// A truth that samples half a second late.
@@ -331,7 +345,8 @@ impl Mock {
         } else {
             seconds
         };
-        if count > self.integer("sample_count") {
+        let stalled = matches!(self.quirk, Quirk::Stalls { run, after } if run == self.integer("run") && count > after);
+        if count > self.integer("sample_count") && !stalled {
             self.put_integer("sample_count", count);
             self.put("sample_time", f64::from(seconds) + late);
             let valid = self.at("lidar.valid").unwrap();
@@ -348,6 +363,12 @@ impl Mock {
         }
         self.put("truth.r_c_n[1]", 7e6);
         self.put("truth.v_c_n[2]", 7e3);
+        if let Quirk::NotFiniteTruth { run, name } = self.quirk
+            && run == self.integer("run")
+            && count >= 9
+        {
+            self.put(name, f64::NAN);
+        }
     }
 
     fn step_filter(&mut self) {
@@ -405,6 +426,10 @@ impl Mock {
         }
         if self.quirk == (Quirk::BrokenCovariance { run }) && count == 20 {
             self.put("cov.p[2,2]", -1.0);
+        }
+        if self.quirk == (Quirk::BrokenAbove { run }) {
+            let above = if (20..=21).contains(&count) { f64::NAN } else { 0.0 };
+            self.put("cov.p[1,4]", above);
         }
     }
 }
