@@ -226,17 +226,21 @@ pub enum HarnessError {
         /// Why.
         source: io::Error,
     },
-    /// Where a folder is needed there is a file.
-    #[error("{} is a file; give a folder", path.display())]
+    /// Where a folder is needed there is something else.
+    #[error("{} is {what}; give a folder", path.display())]
     NotAFolder {
         /// The path.
         path: PathBuf,
+        /// What is there: 'a file'.
+        what: &'static str,
     },
-    /// Where a file is to be written there is a folder.
-    #[error("{} is a folder; give the name of a file", path.display())]
+    /// Where a file is to be written there is something else.
+    #[error("{} is {what}; give the name of a file", path.display())]
     NotAFile {
         /// The path.
         path: PathBuf,
+        /// What is there: 'a folder'.
+        what: &'static str,
     },
     /// The system does not let us listen for Ctrl-C.
     #[error("cannot listen for Ctrl-C: {source}")]

@@ -12,15 +12,42 @@ pub struct OutputFolder {
     path: PathBuf,
 }
 
+const FOLDER: &str = "a folder";
+const FILE: &str = "a file";
+
+/// What is at a path, a link not followed: what is written through one ends where nobody looks for it, and takes the link's place where
+/// a file is replaced.
+fn what_is_at(path: &Path) -> Option<&'static str> {
+    let kind = fs::symlink_metadata(path).ok()?.file_type();
+    Some(match () {
+        () if kind.is_dir() => FOLDER,
+        () if kind.is_file() => FILE,
+        () if kind.is_symlink() => "a link",
+        () => "a device, pipe or socket",
+    })
+}
+
 impl OutputFolder {
+    /// Refuses a path that can be no folder, and touches nothing.
+    ///
+    /// # Errors
+    /// [`HarnessError::NotAFolder`].
+    pub fn check(path: &Path) -> Result<(), HarnessError> {
+        match what_is_at(path).filter(|what| *what != FOLDER) {
+            None => Ok(()),
+            Some(what) => Err(HarnessError::NotAFolder {
+                path: path.to_owned(),
+                what,
+            }),
+        }
+    }
+
     /// Creates the folder if need be and writes and removes a file in it.
     ///
     /// # Errors
     /// [`HarnessError::NotAFolder`], [`HarnessError::Write`].
     pub fn prepare(path: &Path) -> Result<Self, HarnessError> {
-        if path.exists() && !path.is_dir() {
-            return Err(HarnessError::NotAFolder { path: path.to_owned() });
-        }
+        Self::check(path)?;
         fs::create_dir_all(path).map_err(|source| HarnessError::Write {
             path: path.to_owned(),
             source,
@@ -72,9 +99,7 @@ impl OutputFolder {
 /// # Errors
 /// [`HarnessError::NotAFile`], and those of [`OutputFolder::prepare`].
 pub fn prepare_file(path: &Path) -> Result<(), HarnessError> {
-    if path.is_dir() || path.file_name().is_none() {
-        return Err(HarnessError::NotAFile { path: path.to_owned() });
-    }
+    check_file(path)?;
     let folder = path
         .parent()
         .filter(|p| !p.as_os_str().is_empty())
@@ -82,11 +107,25 @@ pub fn prepare_file(path: &Path) -> Result<(), HarnessError> {
     OutputFolder::prepare(folder).map(|_| ())
 }
 
+/// Refuses a path that can be no file, or is one of a kind that nothing should be put in the place of.
+fn check_file(path: &Path) -> Result<(), HarnessError> {
+    let nameless = path.file_name().is_none().then_some(FOLDER);
+    match nameless.or_else(|| what_is_at(path)).filter(|what| *what != FILE) {
+        None => Ok(()),
+        Some(what) => Err(HarnessError::NotAFile {
+            path: path.to_owned(),
+            what,
+        }),
+    }
+}
+
 /// Writes a file beside its place and moves it there.
 ///
 /// # Errors
-/// [`HarnessError::Write`]; then a file that was there still is.
+/// [`HarnessError::NotAFile`] for a folder, link, device, pipe or socket, which stays; [`HarnessError::Write`]; then a file that was
+/// there still is.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), HarnessError> {
+    check_file(path)?;
     let beside = temporary(path);
     let attempt = || -> io::Result<()> {
         if let Some(folder) = path.parent() {
@@ -168,6 +207,39 @@ mod tests {
         assert!(matches!(prepare_file(dir.path()), Err(HarnessError::NotAFile { .. })));
         prepare_file(&dir.path().join("new/replay.csv")).unwrap();
         assert!(dir.path().join("new").is_dir());
+    }
+
+    /// What is neither a file nor a folder of its own is refused before the work and when it is over, and stays what it is.
+    #[cfg(unix)]
+    #[test]
+    fn links_and_devices_are_refused_and_stay() {
+        use std::os::unix::{fs::symlink, net::UnixListener};
+        let dir = tempfile::tempdir().unwrap();
+        let at = |name: &str| dir.path().join(name);
+        fs::create_dir(at("folder")).unwrap();
+        fs::write(at("file"), "mine").unwrap();
+        symlink(at("folder"), at("to a folder")).unwrap();
+        symlink(at("file"), at("to a file")).unwrap();
+        symlink(at("nowhere"), at("to nothing")).unwrap();
+        let _socket = UnixListener::bind(at("socket")).unwrap();
+        let null = Path::new("/dev/null").to_owned();
+        for path in [at("to a folder"), at("to a file"), at("to nothing"), at("socket"), null] {
+            let before = fs::symlink_metadata(&path).unwrap().file_type();
+            let refused = OutputFolder::prepare(&path).unwrap_err();
+            assert!(matches!(refused, HarnessError::NotAFolder { .. }), "{refused}");
+            for refused in [
+                prepare_file(&path).unwrap_err(),
+                write_whole(&path, b"new").unwrap_err(),
+            ] {
+                assert!(matches!(refused, HarnessError::NotAFile { .. }), "{refused}");
+            }
+            assert_eq!(fs::symlink_metadata(&path).unwrap().file_type(), before);
+        }
+        assert_eq!(fs::read(at("file")).unwrap(), b"mine");
+        assert_eq!(fs::read_dir(at("folder")).unwrap().count(), 0);
+        // Below a link is as good as anywhere.
+        OutputFolder::prepare(&at("to a folder").join("below")).unwrap();
+        assert!(at("folder").join("below").is_dir());
     }
 
     #[test]

@@ -14,6 +14,7 @@ use super::worker;
 use crate::HarnessError;
 use crate::cli::CompareArgs;
 use crate::format::json_bytes;
+use crate::output::OutputFolder;
 use crate::store::{Claim, StudyFolder, identity};
 use crate::structure::{Told, read};
 
@@ -25,6 +26,8 @@ pub(super) fn compare(args: &CompareArgs, out: &mut Out<'_>) -> Result<Verdict, 
     };
     let (told, own) = told.map_or((None, None), |told| (Some(told.plan), Some(told.own)));
     let plan = asked(args, told)?;
+    // Before anything is built.
+    OutputFolder::check(&results(args, &plan))?;
     let models = match &own {
         Some(own) => {
             plan.check()?;

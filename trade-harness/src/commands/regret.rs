@@ -59,8 +59,8 @@ pub(super) fn regret(args: &RegretArgs, out: &mut Out<'_>) -> Result<Verdict, Ha
             .or_else(|| Some(LAWS.iter().filter_map(|law| law.parse().ok()).collect())),
         ..plan
     };
-    let models = models(&plan, &args.study.build)?;
     let folder = OutputFolder::prepare(&args.out)?;
+    let models = models(&plan, &args.study.build)?;
     let options = Options {
         runs: plan.runs,
         scouts: args.scouts.min(plan.runs),
