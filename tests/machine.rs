@@ -29,6 +29,9 @@ const STUDY: [&str; 11] = [
 
 type Results = BTreeMap<String, Vec<u8>>;
 
+/// What it is, what a shell does before the study, and what the study's environment is.
+type Case = (&'static str, &'static str, Vec<(&'static str, String)>);
+
 /// Most writes at which a disk is full.
 const PLACES: u64 = 30;
 
@@ -152,7 +155,7 @@ fn what_the_machine_is_like_changes_no_byte() {
     let whole = study(&at("whole"), &at("tmp"), &[]).output().unwrap();
     assert!(whole.status.success(), "{}", said(&whole));
     let expected = results(&at("whole"));
-    let mut cases: Vec<(&str, &str, Vec<(&str, String)>)> = vec![
+    let mut cases: Vec<Case> = vec![
         ("1 MiB of stack", "ulimit -s 1024", vec![]),
         ("200 open files", "ulimit -n 200", vec![]),
         ("no core, little of everything", "ulimit -c 0; ulimit -n 64", vec![]),
