@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{harness_ok, read_csv, root, skipped};
+use common::{harness_ok, program, read_csv, root, skipped};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use trade_harness::pack;
@@ -15,7 +15,7 @@ fn script(example: &str, out: &Path) -> String {
     harness_ok(&["list"]);
     let output = Command::new("bash")
         .arg(root().join("examples").join(example).join("run.sh"))
-        .env("HARNESS", root().join("target/release/trade-harness"))
+        .env("HARNESS", program())
         .env("HARNESS_FLAGS", "--no-build --quiet")
         .env("FMUS", pack::default_folder(root()))
         .env("RUNS", "2")

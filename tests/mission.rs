@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{fmu, harness, harness_ok, read_csv, root};
+use common::{fmu, harness, harness_ok, program, read_csv, root};
 use std::path::Path;
 use std::process::Command;
 
@@ -33,10 +33,7 @@ fn a_new_mission_is_written_checked_and_not_overwritten() {
         text(folder.path()),
     ];
     let new = |arguments: &[&str]| {
-        let built = harness(&["mission", "check", "leo_venting", "--once"]);
-        assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
-        let target = root().join("target/release/trade-harness");
-        Command::new(target)
+        Command::new(program())
             .args(arguments)
             .current_dir(root())
             .output()

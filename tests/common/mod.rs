@@ -37,10 +37,10 @@ fn packed() -> &'static Path {
     })
 }
 
-/// A call of the harness's program, built once for each test binary, on FMUs that are packed already.
-pub fn command(arguments: &[&str]) -> Command {
+/// The harness's program, built once for each test binary, wherever cargo builds.
+pub fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
-    let program = PROGRAM.get_or_init(|| {
+    PROGRAM.get_or_init(|| {
         fmu("fmu-nav");
         let built = Command::new(env!("CARGO"))
             .args([
@@ -62,8 +62,12 @@ pub fn command(arguments: &[&str]) -> Command {
             .map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap());
         let mut programs = artifacts.filter_map(|a| a["executable"].as_str().map(PathBuf::from));
         programs.next_back().unwrap()
-    });
-    let mut command = Command::new(program);
+    })
+}
+
+/// A call of it, on FMUs that are packed already.
+pub fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(program());
     command.args(arguments).current_dir(root());
     let first = arguments.first().copied();
     // What answers at once, or says all that it does, has no progress.

@@ -10,7 +10,7 @@ python=$work/venv/bin/python
 rm -rf "$work/whole" "$work/xargs" "$work/dask"
 mkdir -p "$work"
 cargo build --release --quiet --package trade-harness
-program=target/release/trade-harness
+program=${CARGO_TARGET_DIR:-target}/release/trade-harness
 "$program" pack --quiet >/dev/null
 study=(--scenario leo_venting --filters snc,fixed_q --runs 60)
 "$program" compare "${study[@]}" --no-build --quiet --out "$work/whole" >/dev/null

@@ -30,7 +30,7 @@ if [ -x "$python" ]; then
     for model in guidance life_support; do
         "$work/venv/bin/pythonfmu" build --file "$example/$model.py" --dest "$work/fmu" "$example/pulse.py" >"$work/pythonfmu.log"
     done
-    "$python" "$here/equal.py" "$work" "target/release/trade-harness --quiet ${ours[*]}" docs/masters.md
+    "$python" "$here/equal.py" "$work" "${CARGO_TARGET_DIR:-target}/release/trade-harness --quiet ${ours[*]}" docs/masters.md
 
     echo "# PythonFMU: a stranger's filter in the study"
     # Its library takes Python from the program that loads it, so the harness must bring one.

@@ -15,7 +15,7 @@ skipped() { echo "SKIPPED $1: needs $2"; }
 environment "$work" "$here/requirements.txt" "every platform"
 export PATH="$work/venv/bin:$PATH"
 cargo build --release --quiet --package trade-harness
-harness=$PWD/target/release/trade-harness
+harness=$(realpath "${CARGO_TARGET_DIR:-target}")/release/trade-harness
 # Before another compiler is taken: this machine's own library is one of those compared.
 "$harness" pack --quiet --out "$work/native" >/dev/null
 # The other folder is no repository that could say when the commit was made.
