@@ -23,7 +23,7 @@ fn refused(arguments: &[&str]) -> String {
 #[test]
 fn a_new_mission_is_written_checked_and_not_overwritten() {
     let folder = tempfile::tempdir().unwrap();
-    let program = [
+    let wanted = [
         "mission",
         "new",
         "mine",
@@ -39,7 +39,7 @@ fn a_new_mission_is_written_checked_and_not_overwritten() {
             .output()
             .unwrap()
     };
-    let output = new(&program);
+    let output = new(&wanted);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let file = folder.path().join("mine.toml");
     let written = std::fs::read_to_string(&file).unwrap();
@@ -55,7 +55,7 @@ fn a_new_mission_is_written_checked_and_not_overwritten() {
     ] {
         assert!(shown.contains(part), "{part:?} is missing in: {shown}");
     }
-    let again = new(&program);
+    let again = new(&wanted);
     assert_eq!(again.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&again.stderr).contains("exists already"));
     assert_eq!(std::fs::read_to_string(&file).unwrap(), written, "nothing is lost");
