@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use crate::readers::Tag;
 use crate::samples::{SAME_TIME, TruthSample};
+use crate::signals::Signals;
 use crate::spec::Spec;
-use crate::world::Signals;
 
 /// The truth at every sample of a run so far, for filters that answer late.
 pub(crate) struct History {

@@ -6,7 +6,8 @@ use nalgebra::{SMatrix, Vector3};
 use crate::error::StudyError;
 use crate::participant::Participant;
 use crate::samples::{Estimate, StatusItems, TruthSample};
-use crate::world::{Frame, Innovation};
+use crate::signals::Innovation;
+use crate::world::Frame;
 use interface::Status;
 use interface::ports::{PORTS, Part};
 

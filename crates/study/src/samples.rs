@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::world::Signals;
+use crate::signals::Signals;
 use interface::Status;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
