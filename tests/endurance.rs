@@ -6,7 +6,7 @@
 
 mod common;
 
-use common::{command, harness, harness_ok, results};
+use common::{command, harness, harness_ok, in_shell, results};
 use rand::RngExt;
 use std::io::Read;
 use std::path::Path;
@@ -182,6 +182,38 @@ fn asked_to_stop_a_study_ends_at_once_and_says_how_to_go_on() {
     }
 }
 
+/// Who asks twice waits for nothing, and what was finished is kept.
+#[test]
+fn asked_twice_a_study_ends_at_once_and_can_go_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("twice");
+    let mut child = start(&LONG, &out, &[]);
+    wait_for_more(&mut child, &out, 1_000_000);
+    signal(&child, "INT");
+    signal(&child, "INT");
+    let (status, said) = ended(child);
+    assert_eq!(status.code(), Some(130), "{said}");
+    let size = journal(&out);
+    assert!(size >= 1_000_000, "{size}");
+    let refused = harness(&[&LONG[..], &["--seed", "2", "--out", text(&out)]].concat());
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert!(said.contains("another study"), "{said}");
+}
+
+/// A folder that goes elsewhere while a study works in it.
+#[test]
+fn a_folder_that_goes_takes_what_is_finished_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, elsewhere) = (folder.path().join("gone"), folder.path().join("elsewhere"));
+    let mut child = start(&LONG, &out, &[]);
+    wait_for_more(&mut child, &out, 0);
+    std::fs::rename(&out, &elsewhere).unwrap();
+    signal(&child, "INT");
+    let (status, said) = ended(child);
+    assert_eq!(status.code(), Some(130), "{said}");
+    assert!(elsewhere.join(".unfinished").exists());
+}
+
 #[test]
 fn a_folder_belongs_to_one_study_and_one_process() {
     let folder = tempfile::tempdir().unwrap();
@@ -263,21 +295,8 @@ fn a_full_disk_loses_nothing() {
     let arguments = [&STUDY[..], &["--out", text(&out)]].concat();
     let command = command(&arguments);
     // A limit on the size of a file stands in for the disk.
-    let limited = |blocks: u32| {
-        let quoted: Vec<String> = std::iter::once(command.get_program())
-            .chain(command.get_args())
-            .map(|a| format!("'{}'", a.to_str().unwrap()))
-            .collect();
-        let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec {}", quoted.join(" "));
-        let mut shell = std::process::Command::new("sh");
-        shell
-            .args(["-c", &script])
-            .current_dir(common::root())
-            .output()
-            .unwrap()
-    };
     // In blocks of 512 bytes: 15 MB, the FMUs unpacked and some runs.
-    let output = limited(30_000);
+    let output = in_shell("trap '' XFSZ; ulimit -f 30000", &command).output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(
         output.status.code() == Some(2) && said.contains("every finished run before it is safe"),

@@ -6,11 +6,10 @@
 
 mod common;
 
-use common::{harness, harness_ok, read_csv, results, skipped};
+use common::{c_library, harness, harness_ok, read_csv, results};
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 const RUNS: usize = 3;
 
@@ -20,26 +19,7 @@ fn text(path: &Path) -> &str {
 
 /// Packs the filter; `None` without a C compiler.
 fn nasty(folder: &Path) -> Option<PathBuf> {
-    let (source, library) = (folder.join("nasty.c"), folder.join("nasty.so"));
-    std::fs::write(&source, include_str!("nasty/nasty.c")).unwrap();
-    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
-    let ran = Command::new(compiler)
-        .args([
-            "-shared",
-            "-fPIC",
-            "-Wall",
-            "-Werror",
-            "-o",
-            text(&library),
-            text(&source),
-            "-lm",
-        ])
-        .output();
-    let Ok(done) = ran else {
-        skipped("isolation", "gcc");
-        return None;
-    };
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let library = c_library(folder, "nasty", include_str!("nasty/nasty.c"), &["-lm"], "isolation")?;
     let scalar = |name: &str, reference: u32, causality: &str, kind: &str| {
         let variability = if causality == "parameter" { "fixed" } else { "discrete" };
         let start = if causality == "output" { "" } else { " start=\"0\"" };

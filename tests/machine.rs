@@ -1,5 +1,5 @@
-//! A machine that lets a study down: a disk that fills at any write, a folder that goes or takes nothing, a clock that goes back, little
-//! stack, few files, other languages, someone impatient.
+//! A machine that lets a study down: a disk that fills at any write, a folder that takes nothing, a clock that goes back, little stack, few
+//! files, other languages.
 
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here is a failed test")]
@@ -7,11 +7,10 @@
 
 mod common;
 
-use common::{command, harness, results, skipped};
+use common::{c_library, command, in_shell, results};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
-use std::time::{Duration, Instant};
+use std::process::{Command, Output};
 
 const STUDY: [&str; 11] = [
     "compare",
@@ -53,25 +52,8 @@ fn study(out: &Path, temporary: &Path, more: &[&str]) -> Command {
 
 /// The library that stands between a program and its machine; `None` without a C compiler.
 fn machine(folder: &Path) -> Option<PathBuf> {
-    let (source, library) = (folder.join("machine.c"), folder.join("machine.so"));
-    std::fs::write(&source, include_str!("nasty/machine.c")).unwrap();
-    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
-    let flags = [
-        "-shared",
-        "-fPIC",
-        "-Wall",
-        "-Werror",
-        "-o",
-        text(&library),
-        text(&source),
-        "-ldl",
-    ];
-    let Ok(done) = Command::new(compiler).args(flags).output() else {
-        skipped("a machine that lets a study down", "gcc");
-        return None;
-    };
-    assert!(done.status.success(), "{}", said(&done));
-    Some(library)
+    let source = include_str!("nasty/machine.c");
+    c_library(folder, "machine", source, &["-ldl"], "a machine that lets a study down")
 }
 
 /// Names of files that nobody wants, in a folder and below.
@@ -176,14 +158,7 @@ fn what_the_machine_is_like_changes_no_byte() {
         for isolated in [&[][..], &["--isolate"]] {
             let out = at("other");
             let _ = std::fs::remove_dir_all(&out);
-            let command = study(&out, &at("tmp"), isolated);
-            let quoted: Vec<String> = std::iter::once(command.get_program())
-                .chain(command.get_args())
-                .map(|a| format!("'{}'", a.to_str().unwrap()))
-                .collect();
-            let output = Command::new("sh")
-                .args(["-c", &format!("{before}; exec {}", quoted.join(" "))])
-                .current_dir(common::root())
+            let output = in_shell(before, &study(&out, &at("tmp"), isolated))
                 .env("TMPDIR", at("tmp"))
                 .envs(environment.iter().map(|(name, value)| (name, value)))
                 .output()
@@ -216,7 +191,7 @@ fn says_how(name: &str) -> bool {
 }
 
 #[test]
-fn a_folder_that_takes_nothing_or_goes_is_told() {
+fn a_folder_that_takes_nothing_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     for place in ["/proc/results", "/dev/null/results", "/sys/results"] {
@@ -225,82 +200,4 @@ fn a_folder_that_takes_nothing_or_goes_is_told() {
         assert!(output.status.code() == Some(2) && told.contains(place), "{told}");
         assert_eq!(entries(&at("tmp")), 0, "{place}: temporary files are left");
     }
-    // So long that it is not over before it is disturbed.
-    let out = at("gone");
-    let long = [
-        "compare",
-        "--filters",
-        "fixed_q,snc",
-        "--runs",
-        "3000",
-        "--out",
-        text(&out),
-    ];
-    let child = command(&long)
-        .env("TMPDIR", at("tmp"))
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let begun = Instant::now();
-    while !out.join(".unfinished/leo_venting_nominal.journal").exists() {
-        assert!(begun.elapsed() < Duration::from_secs(120), "no run was kept");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    std::fs::rename(&out, at("elsewhere")).unwrap();
-    let interrupted = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(interrupted.success());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130), "{}", said(&output));
-    assert!(at("elsewhere/.unfinished").exists());
-}
-
-/// Who asks twice waits for nothing, and what was finished is kept.
-#[test]
-fn asked_twice_a_study_ends_at_once_and_can_go_on() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("twice");
-    let long = [
-        "compare",
-        "--filters",
-        "fixed_q,snc",
-        "--runs",
-        "3000",
-        "--out",
-        text(&out),
-    ];
-    let mut child = command(&long)
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let journal = out.join(".unfinished/leo_venting_nominal.journal");
-    let begun = Instant::now();
-    while std::fs::metadata(&journal).map_or(0, |about| about.len()) < 1_000_000 {
-        assert!(begun.elapsed() < Duration::from_secs(120), "no run was kept");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    for _ in 0..2 {
-        let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-        assert!(sent.unwrap().success());
-    }
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    let size = std::fs::metadata(&journal).unwrap().len();
-    assert!(size >= 1_000_000, "{size}");
-    let other = [
-        "compare",
-        "--filters",
-        "fixed_q,snc",
-        "--runs",
-        "3000",
-        "--seed",
-        "2",
-        "--out",
-        text(&out),
-    ];
-    let refused = harness(&other);
-    assert!(said(&refused).contains("another study"), "{}", said(&refused));
 }

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{fmu, harness, harness_ok, read_csv, repacked, results, root, skipped};
+use common::{c_library, fmu, harness, harness_ok, read_csv, repacked, results};
 use interface::mission::EMBEDDED;
 use interface::ports::{PORTS, Role, Shape};
 use ssp::{Component, Connection, Connector, DataType, Element, End, Kind, Package, Value, flatten};
@@ -12,7 +12,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 fn packed() -> PathBuf {
     fmu("fmu-nav").with_file_name("relative-navigation.ssp")
@@ -189,24 +188,8 @@ fn another_mission_is_bound_by_its_files() {
 
 /// Packs the driver with names of its own for what it commands; `None` without a C compiler.
 fn driver(folder: &Path, [push, kick, kicks]: [&str; 3]) -> Option<PathBuf> {
-    let library = folder.join("push.so");
-    let source = root().join("tests/ssp/push.c");
-    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
-    let mut build = Command::new(compiler);
-    build.args([
-        "-shared",
-        "-fPIC",
-        "-Wall",
-        "-Werror",
-        "-o",
-        text(&library),
-        text(&source),
-    ]);
-    let Ok(done) = build.output() else {
-        skipped("a driver in a structure", "gcc");
-        return None;
-    };
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let source = include_str!("ssp/push.c");
+    let library = c_library(folder, "push", source, &[], "a driver in a structure")?;
     let output = |name: &str, reference: usize, kind: &str| {
         format!(
             "<ScalarVariable name=\"{name}\" valueReference=\"{reference}\" causality=\"output\" variability=\"discrete\">\

@@ -148,6 +148,37 @@ pub fn virtual_environment(environment: &Path, packages: &[&str]) -> Option<Path
     Some(python)
 }
 
+/// A shared library from C in a folder, by the compiler that `CC` names; `None`, said to be skipped, without one.
+///
+/// * `name`: of the library, without an extension; `more`: further arguments.
+pub fn c_library(folder: &Path, name: &str, source: &str, more: &[&str], test: &str) -> Option<PathBuf> {
+    let (file, library) = (folder.join(format!("{name}.c")), folder.join(format!("{name}.so")));
+    std::fs::write(&file, source).unwrap();
+    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
+    let built = Command::new(compiler)
+        .args(["-shared", "-fPIC", "-Wall", "-Werror", "-o"])
+        .args([&library, &file])
+        .args(more)
+        .output();
+    let Ok(built) = built else {
+        skipped(test, "gcc");
+        return None;
+    };
+    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    Some(library)
+}
+
+/// The same call by a shell, after what that is told first.
+pub fn in_shell(before: &str, call: &Command) -> Command {
+    let words = std::iter::once(call.get_program()).chain(call.get_args());
+    let quoted: Vec<String> = words.map(|word| format!("'{}'", word.to_str().unwrap())).collect();
+    let mut shell = Command::new("sh");
+    shell
+        .args(["-c", &format!("{before}; exec {}", quoted.join(" "))])
+        .current_dir(root());
+    shell
+}
+
 /// Says on the terminal, past the test runner's capture, that a test could not run and what it lacks.
 pub fn skipped(test: &str, package: &str) {
     let _ = writeln!(std::io::stderr(), "SKIPPED {test}: needs the system package {package}");

@@ -9,39 +9,13 @@ use filters::laws::FILTERS;
 use filters::tunable::{Kind, Start, Value};
 use filters::{Navigation, Navigator, Reading, Settings, Status};
 use flight::{Flight, Push};
-use interface::Mission;
 use interface::Sensor;
 use interface::mission::EMBEDDED;
 use nalgebra::{Vector3, Vector6};
 
 /// A low orbit; `sensors` and `navigation` are the rest of the file.
 fn low_orbit(sensors: &str, navigation: &str) -> Navigation {
-    let text = format!(
-        r#"
-mission = 1
-name = "test"
-[time]
-epoch_utc = "2020-01-01T00:00:00"
-duration_s = 900.0
-[environment]
-gravity = {{ model = "zonal", mu_m3_s2 = 3.986e14, radius_m = 6.378e6, j = [1.083e-3, -2.532e-6, -1.620e-6] }}
-[target.orbit]
-at = "start"
-elements = {{ a_m = 6.878e6, e = 0.001, i_deg = 15.0, raan_deg = 0.0, argp_deg = 0.0, mean_anomaly_deg = 0.0 }}
-[chaser.relative]
-at = "start"
-axes = "n"
-r_tc_m = [300.0, -900.0, 250.0]
-v_tc_m_s = [0.1, 0.5, -0.2]
-[initial_error]
-sigma_position_m = 5.0
-sigma_velocity_m_s = 0.05
-{sensors}
-[navigation]
-{navigation}
-"#
-    );
-    Mission::parse("test.toml", &text).unwrap().navigation()
+    flight::orbit([6.878e6, 0.001], [5.0, 0.05], sensors, navigation)
 }
 
 fn zonal(r: &Vector3<f64>) -> Vector3<f64> {

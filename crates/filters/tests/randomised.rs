@@ -18,7 +18,6 @@ use filters::tunable::{Kind, Value};
 use filters::{Estimate, FilterError, Navigation, Navigator, Reading, Sample, Settings, Status};
 use flight::{Flight, Push};
 use formation::{Formation, World};
-use interface::Mission;
 use interface::mission::Frame;
 use nalgebra::{Vector3, Vector6};
 use numerics::{Generator, Source, stream};
@@ -78,41 +77,14 @@ fn drawn_mission(g: &mut Generator) -> (Navigation, Vector6<f64>) {
         argument_of_periapsis: g.random_range(0.0..6.0),
         mean_anomaly: g.random_range(0.0..6.0),
     };
-    let text = format!(
-        r#"
-mission = 1
-name = "drawn"
-[time]
-duration_s = 900.0
-[environment]
-gravity = {{ model = "zonal", mu_m3_s2 = 3.986e14, radius_m = 6.378e6, j = [1.083e-3, -2.532e-6, -1.620e-6] }}
-[target.orbit]
-at = "start"
-elements = {{ a_m = {a:e}, e = {e:e}, i_deg = 15.0, raan_deg = 0.0, argp_deg = 0.0, mean_anomaly_deg = 0.0 }}
-[chaser.relative]
-at = "start"
-axes = "n"
-r_tc_m = [300.0, -900.0, 250.0]
-v_tc_m_s = [0.1, 0.5, -0.2]
-[initial_error]
-sigma_position_m = {position:e}
-sigma_velocity_m_s = {velocity:e}
-{sensors}
-[navigation]
-chaser_q_c_m2_s3 = {q_c:e}
-[navigation.scale]
-disturbance_m_s2 = {disturbance:e}
-disturbance_time_s = {time:e}
-"#,
-        a = elements.a,
-        e = elements.e,
-        position = 5.0 * decades(g, 2.0),
-        velocity = 0.05 * decades(g, 2.0),
-        q_c = 1e-12 * decades(g, 4.0),
-        disturbance = 1e-5 * decades(g, 3.0),
-        time = 30.0 * decades(g, 1.5),
+    let sigma = [5.0 * decades(g, 2.0), 0.05 * decades(g, 2.0)];
+    let navigation = format!(
+        "chaser_q_c_m2_s3 = {:e}\n[navigation.scale]\ndisturbance_m_s2 = {:e}\ndisturbance_time_s = {:e}\n",
+        1e-12 * decades(g, 4.0),
+        1e-5 * decades(g, 3.0),
+        30.0 * decades(g, 1.5),
     );
-    let told = Mission::parse("drawn.toml", &text).unwrap().navigation();
+    let told = flight::orbit([elements.a, elements.e], sigma, &sensors, &navigation);
     let (r, v) = elements.to_state(3.986e14).unwrap();
     (told, Vector6::new(r.x, r.y, r.z, v.x, v.y, v.z))
 }

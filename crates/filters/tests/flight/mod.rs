@@ -1,14 +1,48 @@
 //! A small truth of its own: two vehicles in any gravity, burns, and every sensor at a period of its own.
 
+#![allow(clippy::unwrap_used, reason = "what fails here is a failed test")]
 #![allow(missing_docs, reason = "part of test binaries")]
 #![allow(dead_code, reason = "each binary uses its own part")]
 
 use filters::state::State;
 use filters::{Reading, Sample, SpecificForce, Untold};
-use interface::Navigation;
+use interface::{Mission, Navigation};
 use nalgebra::{Matrix3, SVector, Vector3, Vector6};
 use numerics::{Generator, Source, rk4, stream};
 use rand_distr::{Distribution, StandardNormal};
+
+/// A mission about the Earth; `sensors` and `navigation` are the rest of its file.
+///
+/// * `orbit`: semi-major axis, m, and eccentricity; `sigma`: of the initial position, m, and velocity, m/s.
+pub fn orbit(orbit: [f64; 2], sigma: [f64; 2], sensors: &str, navigation: &str) -> Navigation {
+    let ([a, e], [position, velocity]) = (orbit, sigma);
+    let text = format!(
+        r#"
+mission = 1
+name = "test"
+[time]
+epoch_utc = "2020-01-01T00:00:00"
+duration_s = 900.0
+[environment]
+gravity = {{ model = "zonal", mu_m3_s2 = 3.986e14, radius_m = 6.378e6, j = [1.083e-3, -2.532e-6, -1.620e-6] }}
+[target.orbit]
+at = "start"
+elements = {{ a_m = {a:e}, e = {e:e}, i_deg = 15.0, raan_deg = 0.0, argp_deg = 0.0, mean_anomaly_deg = 0.0 }}
+[chaser.relative]
+at = "start"
+axes = "n"
+r_tc_m = [300.0, -900.0, 250.0]
+v_tc_m_s = [0.1, 0.5, -0.2]
+[initial_error]
+sigma_position_m = {position:e}
+sigma_velocity_m_s = {velocity:e}
+{sensors}
+[navigation]
+{navigation}
+"#
+    );
+    Mission::parse("test.toml", &text).unwrap().navigation()
+}
 
 /// Acceleration at an epoch, a position and a velocity, axes N, SI.
 pub type Gravity = Box<dyn Fn(f64, &Vector3<f64>, &Vector3<f64>) -> Vector3<f64>>;
